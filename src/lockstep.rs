@@ -1,0 +1,1 @@
+//! All cores in one thread, in virtual time: the reference.

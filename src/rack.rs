@@ -1,0 +1,1 @@
+//! Racks: which balls stand where when a game begins.

@@ -1,0 +1,1 @@
+//! Scenes: what exists in a game.
