@@ -7,9 +7,9 @@
 //! The one queue is bounded by [`LIMIT`]: an event that finds it full is refused and counted, and
 //! the publisher's tick ends with an error, because a lost event would be a wrong game.
 
-use crate::events::{Command, Event, Source, Stamp, Stamped, Topics};
+use crate::events::{Command, Event, Source, Stamp, Stamped, Topics, TurnAfter};
 use crate::hash::Digest;
-use crate::tick::Outcome;
+use crate::tick::{Outcome, Sealed};
 use crate::units::Tick;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
@@ -87,6 +87,7 @@ pub struct EventManager {
     later: BTreeMap<Stamp, (Event, Option<u32>)>,
     sequences: BTreeMap<Source, u64>,
     refused: u64,
+    over: bool,
 }
 
 impl EventManager {
@@ -232,6 +233,9 @@ impl EventManager {
                 break;
             }
             let (stamp, (event, _)) = entry.remove_entry();
+            if let Event::Verdict(verdict) = &event {
+                self.over |= verdict.turn == TurnAfter::End;
+            }
             if self.interest.contains(event.topic()) {
                 self.now.push(Stamped { stamp, event });
             }
@@ -261,6 +265,17 @@ impl EventManager {
             deliveries.push(Delivery { to: SubscriberId(index), events });
         }
         deliveries
+    }
+
+    /// What the clock needs to know after a tick.
+    pub fn sealed(&self) -> Sealed {
+        let next_due = self.next_due();
+        Sealed {
+            next_due,
+            commands: next_due.map(|due| self.commands_due(due)).unwrap_or_default(),
+            interest: self.interest,
+            over: self.over,
+        }
     }
 
     /// The state hashes of all participants as of their last answer, in order of registration.

@@ -12,10 +12,11 @@ use crate::events::Source;
 use crate::hash::{Digest, StateHash};
 use crate::ids::BallId;
 use crate::physics::Snapshot;
-use crate::tick::{End, Frame};
+use crate::tick::{End, Frame, FrameSource, Inflow};
 use crate::units::Tick;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Version of the format.
 pub const VERSION: u32 = 1;
@@ -74,8 +75,11 @@ impl TickHash {
             hash.u64(ball.place as u64);
             (ball.id, hash.finish().0 as u32)
         });
-        // A hand is not computed, so it has no hash: the frames stand for it.
-        let participants = participants.into_iter().filter(|(source, _)| *source != Source::Input);
+        // A hand is not computed, so it has no hash: the frames stand for it. Observers decide
+        // nothing.
+        let participants = participants
+            .into_iter()
+            .filter(|(source, _)| !matches!(source, Source::Input | Source::Runtime));
         TickHash { tick, physics, participants: participants.collect(), balls: balls.collect() }
     }
 
@@ -209,7 +213,11 @@ impl Recording {
         let header = match parse_line(1, first, false)? {
             Line::Recording(header) => header,
             _ => {
-                return Err(wrong(1, "the first line is no header", "begin with {\"recording\":…}"));
+                return Err(wrong(
+                    1,
+                    "the first line is no header",
+                    "begin with {\"recording\":…}",
+                ));
             }
         };
         if header.version != VERSION {
@@ -257,6 +265,18 @@ impl Recording {
         [frame, hash, end].into_iter().flatten().min()
     }
 
+    /// Whether a run that ended after `tick` with `verified` matching hashes was the whole game.
+    ///
+    /// # Errors
+    /// [`Divergence`] if the recording goes on where the run ended.
+    pub fn check_end(&self, tick: Tick, verified: u64) -> Result<(), Divergence> {
+        if verified < self.hashes.len() as u64 {
+            let what = "the end of the game: the recording goes on, and that".into();
+            return Err(Divergence { tick, what });
+        }
+        Ok(())
+    }
+
     /// The frame of `tick`; empty if there is none.
     pub fn frame(&self, tick: Tick) -> Frame {
         self.frames.get(&tick).cloned().unwrap_or_default()
@@ -273,6 +293,23 @@ impl Recording {
     /// The events that entered, all of them.
     pub fn publications(&self) -> impl Iterator<Item = &Publication> {
         self.frames.values().flatten()
+    }
+}
+
+/// A recording standing in for whoever acted: the mock of the input manager.
+#[derive(Debug, Clone)]
+pub struct RecordedInput(pub Arc<Recording>);
+
+impl FrameSource for RecordedInput {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        let recording = &self.0;
+        let quit = matches!(recording.end, Some((last, End::Quit)) if tick > last);
+        let next = match recording.end {
+            // The one tick at which there is to quit.
+            Some((last, End::Quit)) if tick >= last => Some(last.after(1)),
+            _ => recording.next_after(tick),
+        };
+        Inflow { frame: recording.frame(tick), next, paused: false, quit }
     }
 }
 

@@ -17,6 +17,7 @@ use crate::event_manager::Publication;
 use crate::events::{Command, Event, Fact, FactSet, Source, Stamped, Topics};
 use crate::hash::StateHash;
 use crate::physics::Snapshot;
+use crate::replay::TickHash;
 use crate::units::Tick;
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -62,8 +63,49 @@ pub trait Participant: Send {
     fn hash(&self, hash: &mut StateHash);
 }
 
+impl<P: Participant + ?Sized> Participant for Box<P> {
+    fn source(&self) -> Source {
+        (**self).source()
+    }
+
+    fn topics(&self) -> Topics {
+        (**self).topics()
+    }
+
+    fn start(&mut self, table: &Snapshot) -> Outcome {
+        (**self).start(table)
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        (**self).collect(delivered)
+    }
+
+    fn hash(&self, hash: &mut StateHash) {
+        (**self).hash(hash);
+    }
+}
+
 /// What enters from outside in one tick.
 pub type Frame = SmallVec<[Publication; 2]>;
+
+/// What the outside says about one tick.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Inflow {
+    /// What enters.
+    pub frame: Frame,
+    /// The next tick for which the outside has something to say or to check, if it knows.
+    pub next: Option<Tick>,
+    /// Whether time stands still; not part of the game.
+    pub paused: bool,
+    /// Somebody quit: the game ends before this tick.
+    pub quit: bool,
+}
+
+/// Where frames come from: a recording, a script, a hand.
+pub trait FrameSource: Send {
+    /// What enters in `tick`. Asked for rising ticks, and once for tick 0, before the game.
+    fn inflow(&mut self, tick: Tick) -> Inflow;
+}
 
 /// What is to be done next.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,6 +155,19 @@ pub enum End {
     Idle,
     /// The limit of simulated time was reached.
     Limit,
+}
+
+/// How a game ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finished {
+    /// Why.
+    pub end: End,
+    /// The last tick.
+    pub tick: Tick,
+    /// The state after the last tick in which anybody was called.
+    pub hash: Option<TickHash>,
+    /// How many hashes were checked against a recording.
+    pub verified: u64,
 }
 
 /// What the event manager says after a tick.

@@ -1,1 +1,6 @@
 //! Tests of the cores: pure, milliseconds.
+
+/// Order, delay and interest of the event manager.
+mod event_manager;
+/// What the clock leaves out and what it must not.
+mod tick;
