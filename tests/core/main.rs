@@ -1,1 +1,4 @@
 //! Tests of the cores: pure, milliseconds.
+
+/// Tables: dimensions measured back from the vertices, closed body, pockets.
+mod table;
