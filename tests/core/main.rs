@@ -4,3 +4,5 @@
 mod event_manager;
 /// What the clock leaves out and what it must not.
 mod tick;
+/// Tables: dimensions measured back from the vertices, closed body, pockets.
+mod table;
