@@ -69,7 +69,7 @@ pub(super) fn meant<'c>(word: &str, candidates: &[&'c str]) -> Option<&'c str> {
             .iter()
             .map(|candidate| (*candidate, edit_distance(word, candidate)))
             .min_by_key(|(_, distance)| *distance)?;
-        (distance <= 1 + word.chars().count() / 5).then_some(best)
+        (distance <= 1 + word.chars().count() / 6).then_some(best)
     })
 }
 

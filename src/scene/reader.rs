@@ -47,9 +47,13 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    fn allowed(&self) -> String {
+    fn range(&self) -> String {
         let space = if self.unit.is_empty() { "" } else { " " };
-        format!("a number from {} to {}{space}{}", self.low, self.high, self.unit)
+        format!(" from {} to {}{space}{}", self.low, self.high, self.unit)
+    }
+
+    fn allowed(&self) -> String {
+        format!("expected a number{}", self.range())
     }
 }
 
@@ -148,7 +152,13 @@ impl<'t> Section<'t> {
                 "must be one section",
                 &format!("write [{key}] once, with single brackets"),
             )),
-            _ => Err(self.error(key, "must be a table of keys", &format!("write [{path}]"))),
+            _ => {
+                let fix = match &*self.path {
+                    "" => format!("write [{key}]"),
+                    _ => format!("write {key} = {{ .. }} with its keys inside"),
+                };
+                Err(self.error(key, "must be a table of keys", &fix))
+            }
         }
     }
 
@@ -232,7 +242,7 @@ impl<'t> Section<'t> {
             Some(number) if range.contains(&number) => Ok(Some(number)),
             _ => Err(self.error(
                 key,
-                &format!("a whole number from {} to {}", range.start(), range.end()),
+                &format!("expected a whole number from {} to {}", range.start(), range.end()),
                 &format!("write for example {key} = {}", range.start()),
             )),
         }
@@ -242,7 +252,7 @@ impl<'t> Section<'t> {
     pub fn text(&self, key: &str, example: &str) -> Result<Option<String>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(None) };
         let fix = format!("write for example {key} = \"{example}\"");
-        let allowed = format!("a text in quotes, at most {STRING_MAX} characters");
+        let allowed = format!("expected a text in quotes, at most {STRING_MAX} characters");
         match value.get_ref().as_str() {
             Some(text) if text.chars().count() <= STRING_MAX => Ok(Some(text.to_string())),
             _ => Err(self.error(key, &allowed, &fix)),
@@ -254,7 +264,7 @@ impl<'t> Section<'t> {
         let Some(value) = self.value(key) else { return Ok(None) };
         match value.get_ref().as_bool() {
             Some(switch) => Ok(Some(switch)),
-            None => Err(self.error(key, "true or false", &format!("write {key} = true"))),
+            None => Err(self.error(key, "expected true or false", &format!("write {key} = true"))),
         }
     }
 
@@ -273,7 +283,9 @@ impl<'t> Section<'t> {
         }
         let names: Vec<&str> = choices.iter().map(|(names, _)| names[0]).collect();
         let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-        let fix = match word.and_then(|word| meant(word, &names)) {
+        // Somebody who forgot the quotes meant the word as well.
+        let word = word.unwrap_or(self.source.written(value.span()));
+        let fix = match meant(word, &names) {
             Some(meant) => format!("did you mean \"{meant}\"?"),
             None => format!("write for example {key} = {}", quoted[0]),
         };
@@ -296,7 +308,7 @@ impl<'t> Section<'t> {
         let array = match value.get_ref() {
             DeValue::Array(array) if array.len() == N => array,
             _ => {
-                let allowed = format!("a list of {N} numbers, each {}", limits.allowed());
+                let allowed = format!("expected a list of {N} numbers{}", limits.range());
                 return Err(self.error(key, &allowed, &fix));
             }
         };

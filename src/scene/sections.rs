@@ -195,7 +195,7 @@ fn plane(section: &Section<'_>) -> Result<Plane, SceneError> {
         Some(normal) => normal.try_normalize().ok_or_else(|| {
             section.error(
                 "normal",
-                "a vector that is not zero, towards the free side",
+                "expected a vector that is not zero, towards the free side",
                 "write for example normal = [0, 0, 1]",
             )
         })?,
@@ -316,7 +316,7 @@ fn spring(section: &Section<'_>) -> Result<Spring, SceneError> {
         Some(_) => {
             return Err(section.error(
                 "anchor_orientation",
-                "a unit quaternion x, y, z, w",
+                "expected a unit quaternion x, y, z, w",
                 "write for example anchor_orientation = [0, 0, 0, 1]",
             ));
         }
@@ -409,7 +409,7 @@ fn actors(section: &Section<'_>) -> Result<ActorsSection, SceneError> {
         }
         _ => Err(section.error(
             "input",
-            "\"real\" or \"recorded:FILE\"",
+            "expected \"real\" or \"recorded:FILE\"",
             "write for example input = \"recorded:game.jsonl\"",
         )),
     }
