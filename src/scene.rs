@@ -1,1 +1,324 @@
-//! Scenes: what exists in a game.
+//! Scenes: a file says what exists in a game, and what it does not name does not exist.
+//!
+//! A scene is parsed from text; whoever has files hands their texts in. Everything in it is
+//! untrusted: sizes are bounded, and whatever is wrong becomes a [`SceneError`] of one line that
+//! names file, line, key and value and says what is allowed.
+
+mod check;
+mod error;
+mod plan;
+mod reader;
+mod sections;
+#[cfg(test)]
+mod tests;
+
+pub use error::SceneError;
+pub use plan::{PlanKind, PlanLine};
+
+use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
+use crate::ids::BallId;
+use crate::mesh::Surface;
+use crate::physics::PhysicsSettings;
+use crate::table::Plane;
+use glam::DVec3;
+
+/// Largest scene file that is read [bytes].
+pub const FILE_BYTES_MAX: usize = 4 << 20;
+/// Most balls in a scene.
+pub const BALLS_MAX: usize = 4096;
+/// Most meshes in a scene; as many planes, and as many boxes.
+pub const MESHES_MAX: usize = 64;
+
+/// What exists in a game. Sections that the file does not have are `None` or empty.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// The file, as the caller named it.
+    pub file: String,
+    /// `[scene]`
+    pub about: About,
+    /// `[physics]`
+    pub physics: PhysicsSettings,
+    /// `[table]`
+    pub table: Option<TableSection>,
+    /// `[[mesh]]`
+    pub meshes: Vec<MeshSection>,
+    /// `[[plane]]`
+    pub planes: Vec<Plane>,
+    /// `[[box]]`
+    pub boxes: Vec<BoxSection>,
+    /// `[balls]`
+    pub balls: Option<BallsSection>,
+    /// `[[ball]]`, in the order of the file.
+    pub ball: Vec<BallSection>,
+    /// `[cue]`
+    pub cue: Option<CueSection>,
+    /// `[rules]`
+    pub rules: Option<RulesSection>,
+    /// `[[player]]`: none, one or two.
+    pub players: Vec<PlayerSection>,
+    /// `[camera]`
+    pub camera: Option<CameraSection>,
+    /// `[renderer]`
+    pub renderer: Option<RendererSection>,
+    /// `[input]`
+    pub input: Option<InputSection>,
+    /// `[actors]`; without it everybody is real.
+    pub actors: Option<ActorsSection>,
+}
+
+/// `[scene]`: what the scene is called.
+#[derive(Debug, Clone, PartialEq)]
+pub struct About {
+    /// Its title.
+    pub name: String,
+    /// One sentence for the list of scenes.
+    pub description: String,
+    /// Fixes everything random.
+    pub seed: u64,
+}
+
+/// `[table]`: a table made from one set of parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableSection {
+    /// Name of the parameters, such as `pool-9ft`.
+    pub preset: String,
+    /// Where it stands in the file.
+    pub line: usize,
+}
+
+/// `[[mesh]]`: a fixed body from a Wavefront OBJ file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshSection {
+    /// The file, seen from the scene's folder.
+    pub file: String,
+    /// What it is made of.
+    pub surface: Surface,
+    /// Where its origin is put [m].
+    pub offset_m: DVec3,
+    /// Its lengths are multiplied by this.
+    pub scale: f64,
+    /// Where it stands in the file.
+    pub line: usize,
+}
+
+/// `[[box]]`: a fixed box along the axes; it becomes twelve faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoxSection {
+    /// Its middle [m].
+    pub centre_m: DVec3,
+    /// Its edges [m].
+    pub size_m: DVec3,
+    /// What it is made of.
+    pub surface: Surface,
+}
+
+/// `[balls]`: a rack.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BallsSection {
+    /// Which.
+    pub rack: RackKind,
+    /// Where it stands in the file.
+    pub line: usize,
+}
+
+/// How the balls of a game are set up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RackKind {
+    /// Fifteen balls in a triangle, the 8 in its middle, and the cue ball.
+    EightBall,
+    /// Nine balls in a diamond, the 9 in its middle, and the cue ball.
+    NineBall,
+}
+
+impl RackKind {
+    /// The balls it sets up, in ascending order.
+    pub fn ids(self) -> impl Iterator<Item = BallId> {
+        let last = match self {
+            RackKind::EightBall => 15,
+            RackKind::NineBall => 9,
+        };
+        (0..=last).map(BallId)
+    }
+
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            RackKind::EightBall => "eight-ball",
+            RackKind::NineBall => "nine-ball",
+        }
+    }
+}
+
+/// `[[ball]]`: one ball. With a rack, an entry replaces the rack's ball of that id.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BallSection {
+    /// Its name.
+    pub id: BallId,
+    /// Radius [m].
+    pub radius_m: f64,
+    /// Mass [kg].
+    pub mass_kg: f64,
+    /// Moment of inertia over m R².
+    pub inertia_factor: f64,
+    /// Centre [m]; without a height it lies on z = 0.
+    pub position_m: DVec3,
+    /// Velocity [m/s].
+    pub velocity_m_s: DVec3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity_rad_s: DVec3,
+    /// What acts on it.
+    pub flags: BallFlags,
+    /// Pulls it to an anchor, if present.
+    pub spring: Option<Spring>,
+    /// Where it stands in the file.
+    pub line: usize,
+}
+
+impl BallSection {
+    /// The ball without its motion.
+    pub fn ball(&self) -> Ball {
+        Ball {
+            id: self.id,
+            radius_m: self.radius_m,
+            mass_kg: self.mass_kg,
+            inertia_factor: self.inertia_factor,
+            flags: self.flags,
+            spring: self.spring,
+        }
+    }
+}
+
+/// `[cue]`: there is a cue. It has no keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CueSection;
+
+/// `[rules]`: what is played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RulesSection {
+    /// The game.
+    pub game: Game,
+}
+
+/// A game that this build can referee.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Game {
+    /// The reduced eight-ball of the paper.
+    PaperEightBall,
+    /// Anybody may do anything; who shoots alternates.
+    FreePlay,
+}
+
+impl Game {
+    /// Every game, in a fixed order.
+    pub const ALL: [Game; 2] = [Game::PaperEightBall, Game::FreePlay];
+
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            Game::PaperEightBall => "paper-eight-ball",
+            Game::FreePlay => "free-play",
+        }
+    }
+
+    /// Its short id, as JSON and the command line write it.
+    pub fn id(self) -> &'static str {
+        match self {
+            Game::PaperEightBall => "paper8",
+            Game::FreePlay => "free_play",
+        }
+    }
+}
+
+/// `[[player]]`: who plays.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlayerSection {
+    /// What the player is called.
+    pub name: String,
+    /// Who decides.
+    pub kind: PlayerKind,
+    /// Noise of a computer's stroke, in multiples of the player's own.
+    pub noise: f64,
+    /// Throw compensation a computer starts with (paper, section 5.4.3); none: the player's own.
+    pub throw_factor: Option<f64>,
+    /// Where it stands in the file.
+    pub line: usize,
+}
+
+/// Who decides for a player.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlayerKind {
+    /// Somebody at the input.
+    Human,
+    /// The computer player of the paper.
+    Paper,
+    /// A recording, which the input plays back.
+    Recorded,
+}
+
+impl PlayerKind {
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            PlayerKind::Human => "human",
+            PlayerKind::Paper => "paper",
+            PlayerKind::Recorded => "recorded",
+        }
+    }
+}
+
+/// `[camera]`: there is a camera. It has no keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CameraSection;
+
+/// `[renderer]`: there is a window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RendererSection {
+    /// Width of the picture [pixels].
+    pub width: u32,
+    /// Height of the picture [pixels].
+    pub height: u32,
+    /// Fills the whole screen.
+    pub fullscreen: bool,
+}
+
+/// `[input]`: mouse, keyboard and who stands in for them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputSection {
+    /// Name of the profile that says what each key does.
+    pub profile: String,
+}
+
+/// `[actors]`: who stands in for whom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ActorsSection {
+    /// What stands in for the hands at the input.
+    pub input: Option<StandIn>,
+}
+
+/// A stand-in for an actor.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StandIn {
+    /// A recording, seen from the scene's folder.
+    Recorded(String),
+}
+
+impl Scene {
+    /// Reads a scene. `file_name` is only used to say where an error is.
+    pub fn parse(file_name: &str, text: &str) -> Result<Scene, SceneError> {
+        sections::parse(file_name, text)
+    }
+
+    /// The mesh files that [`Scene::build_table`] will ask for, in order, each once.
+    pub fn meshes_needed(&self) -> Vec<&str> {
+        let mut files: Vec<&str> = Vec::new();
+        for mesh in &self.meshes {
+            if !files.contains(&&*mesh.file) {
+                files.push(&mesh.file);
+            }
+        }
+        files
+    }
+}
+
+/// Moment of inertia of a ball that does not say otherwise.
+const INERTIA_DEFAULT: f64 = SOLID_SPHERE;

@@ -1,9 +1,24 @@
-//! Configuration that is compiled in.
+//! Configuration that is compiled in, so that the program runs from any folder.
 
-/// Tables by name: their parameters as TOML.
+/// The tables, by name: the text of `config/tables/NAME.toml`.
 pub const TABLES: &[(&str, &str)] = &[("pool-9ft", include_str!("../config/tables/pool-9ft.toml"))];
+
+/// The scenes, by name: the text of `config/scenes/NAME.toml`.
+pub const SCENES: &[(&str, &str)] = &[
+    ("eight_ball", include_str!("../config/scenes/eight_ball.toml")),
+    ("eight_ball_headless", include_str!("../config/scenes/eight_ball_headless.toml")),
+    ("free_play", include_str!("../config/scenes/free_play.toml")),
+    ("break_shot", include_str!("../config/scenes/break_shot.toml")),
+    ("one_ball", include_str!("../config/scenes/one_ball.toml")),
+    ("minigolf", include_str!("../config/scenes/minigolf.toml")),
+];
 
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {
     TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// The text of the shipped scene `name`.
+pub fn scene(name: &str) -> Option<&'static str> {
+    SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }

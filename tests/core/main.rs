@@ -6,3 +6,5 @@ mod event_manager;
 mod tick;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
+/// Scene files: what is wrong in them is said in one exact line.
+mod scene;

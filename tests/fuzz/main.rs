@@ -1,1 +1,6 @@
-//! Seeded fuzz tests.
+//! Seeded fuzz tests. `FUZZ_SEED` and `FUZZ_EVENTS` choose another run or a longer one.
+
+/// Texts that come from outside: scenes and meshes.
+mod files;
+/// Seeds from the environment, and ways to spoil a text.
+mod generator;

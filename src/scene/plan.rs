@@ -1,0 +1,135 @@
+//! What a scene will start, which terms its physics has, and what was left out and why.
+
+use super::{PlayerKind, Scene, StandIn};
+use serde::Serialize;
+
+/// One line of the plan.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PlanLine {
+    /// What the line is about.
+    pub kind: PlanKind,
+    /// Name of the actor, thread or term.
+    pub name: String,
+    /// What it does, where it runs, or why it was left out.
+    pub detail: String,
+}
+
+/// What a line of the plan is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlanKind {
+    /// An actor that will be started.
+    Actor,
+    /// A term of the physics that will be computed.
+    Term,
+    /// Something that will not exist.
+    LeftOut,
+}
+
+impl Scene {
+    /// What will be started, which physics terms are in the plan, what was left out and why.
+    pub fn plan(&self) -> Vec<PlanLine> {
+        let mut plan = Plan { lines: Vec::new() };
+        self.actors_of_plan(&mut plan);
+        self.terms_of_plan(&mut plan);
+        // Stable: within a kind the order of the calls stays.
+        plan.lines.sort_by_key(|line| line.kind as u8);
+        plan.lines
+    }
+
+    fn actors_of_plan(&self, plan: &mut Plan) {
+        plan.add(PlanKind::Actor, "conductor", "owns the logical clock; a tokio task");
+        plan.add(PlanKind::Actor, "event_manager", "orders and delivers events; a tokio task");
+        let place = if self.physics.thread { "a thread of its own" } else { "a tokio task" };
+        plan.add(
+            PlanKind::Actor,
+            "physics",
+            &format!("moves {} balls; {place}", self.ball_count()),
+        );
+        match &self.rules {
+            Some(rules) => {
+                let detail = format!("referees {}; a tokio task", rules.game.name());
+                plan.add(PlanKind::Actor, "rules", &detail);
+            }
+            None => plan.left_out("rules", "the scene has no [rules]"),
+        }
+        let computers = self.players.iter().filter(|player| player.kind == PlayerKind::Paper);
+        for player in computers.clone() {
+            let detail = format!("plays as \"{}\"; a tokio task", player.name);
+            plan.add(PlanKind::Actor, "ai", &detail);
+        }
+        if computers.count() == 0 {
+            plan.left_out("ai", "no [[player]] is a computer");
+        }
+        let stand_in = self.actors.as_ref().and_then(|actors| actors.input.as_ref());
+        match (&self.input, stand_in) {
+            (Some(_), Some(StandIn::Recorded(file))) => {
+                plan.add(PlanKind::Actor, "input", &format!("plays back {file}; a tokio task"));
+            }
+            (Some(input), None) => {
+                let detail = format!("mouse and keyboard, profile {}; a tokio task", input.profile);
+                plan.add(PlanKind::Actor, "input", &detail);
+            }
+            (None, _) => plan.left_out("input", "the scene has no [input]"),
+        }
+        match &self.renderer {
+            Some(renderer) => {
+                let detail = format!(
+                    "a window of {} x {} pixels; the main thread",
+                    renderer.width, renderer.height
+                );
+                plan.add(PlanKind::Actor, "renderer", &detail);
+            }
+            None => plan.left_out("renderer", "the scene has no [renderer]"),
+        }
+    }
+
+    fn terms_of_plan(&self, plan: &mut Plan) {
+        let balls = self.ball_count();
+        let term = |plan: &mut Plan, present: bool, name: &str, detail: &str, why: &str| {
+            if present {
+                plan.add(PlanKind::Term, name, detail);
+            } else {
+                plan.left_out(name, why);
+            }
+        };
+        let gravity = format!("{} m/s² downwards", self.physics.gravity_m_s2);
+        term(plan, self.physics.gravity_m_s2 > 0.0, "gravity", &gravity, "gravity_m_s2 is 0");
+        let pairs = format!("{} pairs of balls", balls * balls.saturating_sub(1) / 2);
+        term(plan, balls > 1, "ball-ball contact", &pairs, "fewer than two balls");
+        let friction = self.physics.ball_friction && balls > 1;
+        let why = if balls > 1 { "ball_friction is false" } else { "fewer than two balls" };
+        term(plan, friction, "ball-ball friction", "throws the object ball", why);
+        let faces = self.table.is_some() || !self.meshes.is_empty() || !self.boxes.is_empty();
+        let why = "no [table], [[mesh]] or [[box]]";
+        term(plan, faces, "ball-face contact", "found through a grid of cells", why);
+        let planes = format!("{} half spaces", self.planes.len());
+        term(plan, !self.planes.is_empty(), "ball-plane contact", &planes, "no [[plane]]");
+        term(plan, self.table.is_some(), "pockets", "balls that fall stay down", "no [table]");
+        let springs = self.ball.iter().filter(|ball| ball.spring.is_some()).count();
+        let detail = format!("{springs} balls hang on springs");
+        term(plan, springs > 0, "springs", &detail, "no [[ball]] has a spring");
+        term(plan, self.cue.is_some(), "cue contact", "tip against ball", "no [cue]");
+    }
+
+    /// How many balls the scene begins with.
+    pub fn ball_count(&self) -> usize {
+        let Some(balls) = &self.balls else { return self.ball.len() };
+        let replaced = |id| self.ball.iter().any(|ball| ball.id == id);
+        balls.rack.ids().filter(|id| !replaced(*id)).count() + self.ball.len()
+    }
+}
+
+struct Plan {
+    lines: Vec<PlanLine>,
+}
+
+impl Plan {
+    fn add(&mut self, kind: PlanKind, name: &str, detail: &str) {
+        self.lines.push(PlanLine { kind, name: name.to_string(), detail: detail.to_string() });
+    }
+
+    fn left_out(&mut self, name: &str, why: &str) {
+        self.add(PlanKind::LeftOut, name, why);
+    }
+}

@@ -1,0 +1,416 @@
+//! One function per section of a scene file: keys, types, units, ranges.
+
+use super::reader::{Limits, Section, Source};
+use super::*;
+use crate::ball::{POOL_MASS_KG, POOL_RADIUS_M};
+use crate::physics::{Integrator, Profile, SolverKind};
+use glam::DQuat;
+use toml::de::DeTable;
+
+/// The sections in the order in which a reader expects them.
+const SECTIONS: [&str; 15] = [
+    "scene", "physics", "table", "mesh", "plane", "box", "balls", "ball", "cue", "rules", "player",
+    "camera", "renderer", "input", "actors",
+];
+
+const PLACE: Limits = Limits { low: -1000.0, high: 1000.0, unit: "(m)", example: "0.0" };
+const SPEED: Limits = Limits { low: -100.0, high: 100.0, unit: "(m/s)", example: "0.0" };
+const SPIN: Limits = Limits { low: -10_000.0, high: 10_000.0, unit: "(rad/s)", example: "0.0" };
+
+/// Reads a whole file and checks that its parts fit each other.
+pub(super) fn parse(file_name: &str, text: &str) -> Result<Scene, SceneError> {
+    if text.len() > FILE_BYTES_MAX {
+        let found = format!("{} bytes", text.len());
+        let allowed = format!("a scene has at most {FILE_BYTES_MAX} bytes");
+        let fix = "move large meshes to files of their own";
+        return Err(SceneError::new(file_name, 1, "size", Some(&found), &allowed, fix));
+    }
+    let source = Source { file: file_name, text };
+    let table = DeTable::parse(text).map_err(|error| {
+        let line = source.line(error.span().map_or(0, |span| span.start));
+        let fix = "see https://toml.io for how values are written";
+        SceneError::new(file_name, line, "TOML", None, error.message(), fix)
+    })?;
+    let root = Section::root(&source, table.get_ref());
+    root.allow(&SECTIONS)?;
+
+    let scene = Scene {
+        file: file_name.to_string(),
+        about: about(&root)?,
+        physics: physics(&root)?,
+        table: root.section("table")?.map(|section| table_section(&section)).transpose()?,
+        meshes: each(&root, "mesh", MESHES_MAX, mesh)?,
+        planes: each(&root, "plane", MESHES_MAX, plane)?,
+        boxes: each(&root, "box", MESHES_MAX, box_section)?,
+        balls: root.section("balls")?.map(|section| balls(&section)).transpose()?,
+        ball: each(&root, "ball", BALLS_MAX, ball)?,
+        cue: empty(&root, "cue")?.then_some(CueSection),
+        rules: root.section("rules")?.map(|section| rules(&section)).transpose()?,
+        players: each(&root, "player", 2, player)?,
+        camera: empty(&root, "camera")?.then_some(CameraSection),
+        renderer: root.section("renderer")?.map(|section| renderer(&section)).transpose()?,
+        input: root.section("input")?.map(|section| input(&section)).transpose()?,
+        actors: root.section("actors")?.map(|section| actors(&section)).transpose()?,
+    };
+    check::check(&scene, &root)?;
+    Ok(scene)
+}
+
+fn each<T>(
+    root: &Section<'_>,
+    key: &str,
+    limit: usize,
+    read: impl Fn(&Section<'_>) -> Result<T, SceneError>,
+) -> Result<Vec<T>, SceneError> {
+    root.entries(key, limit)?.iter().map(read).collect()
+}
+
+/// Whether a section without keys is there.
+fn empty(root: &Section<'_>, key: &str) -> Result<bool, SceneError> {
+    let Some(section) = root.section(key)? else { return Ok(false) };
+    section.allow(&[])?;
+    Ok(true)
+}
+
+fn about(root: &Section<'_>) -> Result<About, SceneError> {
+    let Some(section) = root.section("scene")? else {
+        return Err(root.missing(
+            "scene",
+            "every scene has a section [scene]",
+            "write [scene] and name = \"My scene\"",
+        ));
+    };
+    section.allow(&["name", "description", "seed"])?;
+    let Some(name) = section.text("name", "My scene")? else {
+        return Err(section.missing(
+            "name",
+            "every scene has a name",
+            "write for example name = \"My scene\"",
+        ));
+    };
+    Ok(About {
+        name,
+        description: section.text("description", "What it shows")?.unwrap_or_default(),
+        seed: section.integer("seed", 0..=i64::MAX as u64)?.unwrap_or(0),
+    })
+}
+
+fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
+    let Some(section) = root.section("physics")? else {
+        return Err(root.missing(
+            "physics",
+            "every scene has a section [physics]",
+            "write [physics]; each of its keys has a default",
+        ));
+    };
+    section.allow(&[
+        "solver",
+        "step_ms",
+        "integrator",
+        "profile",
+        "gravity_m_s2",
+        "ball_friction",
+        "contact_back_dating",
+        "thread",
+    ])?;
+    let default = PhysicsSettings::default();
+    let step = Limits { low: 0.001, high: 50.0, unit: "(ms)", example: "4.0" };
+    let gravity = Limits { low: 0.0, high: 1000.0, unit: "(m/s², downwards)", example: "9.81" };
+    let integrators: [(&[&str], Integrator); 3] = [
+        (&["euler-cromer"], Integrator::EulerCromer),
+        (&["verlet"], Integrator::Verlet),
+        (&["rk4"], Integrator::Rk4),
+    ];
+    let profiles: [(&[&str], Profile); 2] =
+        [(&["standard"], Profile::Standard), (&["2009"], Profile::Paper2009)];
+    Ok(PhysicsSettings {
+        solver: section
+            .choice("solver", &[(&["fixed-step"], SolverKind::FixedStep)])?
+            .unwrap_or(default.solver),
+        step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
+        integrator: section.choice("integrator", &integrators)?.unwrap_or(default.integrator),
+        profile: section.choice("profile", &profiles)?.unwrap_or(default.profile),
+        gravity_m_s2: section.number("gravity_m_s2", gravity)?.unwrap_or(default.gravity_m_s2),
+        ball_friction: section.switch("ball_friction")?.unwrap_or(default.ball_friction),
+        contact_back_dating: section
+            .switch("contact_back_dating")?
+            .unwrap_or(default.contact_back_dating),
+        thread: section.switch("thread")?.unwrap_or(default.thread),
+    })
+}
+
+fn table_section(section: &Section<'_>) -> Result<TableSection, SceneError> {
+    section.allow(&["preset"])?;
+    let names: Vec<([&'static str; 1], &'static str)> =
+        crate::shipped::TABLES.iter().map(|(name, _)| ([*name], *name)).collect();
+    let choices: Vec<(&[&'static str], &'static str)> =
+        names.iter().map(|(names, name)| (&names[..], *name)).collect();
+    match section.choice("preset", &choices)? {
+        Some(preset) => Ok(TableSection { preset: preset.to_string(), line: section.line() }),
+        None => Err(section.missing(
+            "preset",
+            "a table needs a preset",
+            "write preset = \"pool-9ft\", or use [[plane]], [[box]] and [[mesh]] instead",
+        )),
+    }
+}
+
+fn surface(section: &Section<'_>) -> Result<Surface, SceneError> {
+    let surfaces: [(&[&str], Surface); 4] = [
+        (&["obstacle"], Surface::Obstacle),
+        (&["cloth"], Surface::Cloth),
+        (&["wood"], Surface::Wood),
+        (&["floor"], Surface::Floor),
+    ];
+    Ok(section.choice("surface", &surfaces)?.unwrap_or(Surface::Obstacle))
+}
+
+fn mesh(section: &Section<'_>) -> Result<MeshSection, SceneError> {
+    section.allow(&["file", "surface", "offset_m", "scale"])?;
+    let Some(file) = section.text("file", "course.obj")? else {
+        return Err(section.missing(
+            "file",
+            "a mesh is read from a Wavefront OBJ file",
+            "write for example file = \"course.obj\"",
+        ));
+    };
+    if file.is_empty() {
+        let allowed = "the name of a Wavefront OBJ file";
+        return Err(section.error("file", allowed, "write for example file = \"course.obj\""));
+    }
+    let scale = Limits { low: 1e-6, high: 1e6, unit: "", example: "1.0" };
+    Ok(MeshSection {
+        file,
+        surface: surface(section)?,
+        offset_m: section.vector("offset_m", PLACE)?.unwrap_or(DVec3::ZERO),
+        scale: section.number("scale", scale)?.unwrap_or(1.0),
+        line: section.line(),
+    })
+}
+
+fn plane(section: &Section<'_>) -> Result<Plane, SceneError> {
+    section.allow(&["point_m", "normal", "surface"])?;
+    let component = Limits { low: -1000.0, high: 1000.0, unit: "", example: "1.0" };
+    let normal = match section.vector("normal", component)? {
+        Some(normal) => normal.try_normalize().ok_or_else(|| {
+            section.error(
+                "normal",
+                "expected a vector that is not zero, towards the free side",
+                "write for example normal = [0, 0, 1]",
+            )
+        })?,
+        None => DVec3::Z,
+    };
+    let is_ground = section.length("surface").is_none() && normal.z > 0.5;
+    let surface = match section.text("surface", "cloth")? {
+        Some(_) => surface(section)?,
+        // Ground to play on is cloth unless the scene says otherwise; a wall is an obstacle.
+        None if is_ground => Surface::Cloth,
+        None => Surface::Obstacle,
+    };
+    let point = section.vector("point_m", PLACE)?.unwrap_or(DVec3::ZERO);
+    Ok(Plane { point, normal, surface })
+}
+
+fn box_section(section: &Section<'_>) -> Result<BoxSection, SceneError> {
+    section.allow(&["centre_m", "size_m", "surface"])?;
+    let edge = Limits { low: 1e-4, high: 1000.0, unit: "(m)", example: "0.1" };
+    let Some(centre_m) = section.vector("centre_m", PLACE)? else {
+        let fix = "write for example centre_m = [0, 0, 0.05]";
+        return Err(section.missing("centre_m", "a box has a middle (m)", fix));
+    };
+    let Some(size_m) = section.vector("size_m", edge)? else {
+        let fix = "write for example size_m = [0.1, 0.1, 0.1]";
+        return Err(section.missing("size_m", "a box has three edges (m)", fix));
+    };
+    Ok(BoxSection { centre_m, size_m, surface: surface(section)? })
+}
+
+fn balls(section: &Section<'_>) -> Result<BallsSection, SceneError> {
+    section.allow(&["rack"])?;
+    let racks: [(&[&str], RackKind); 2] =
+        [(&["eight-ball"], RackKind::EightBall), (&["nine-ball"], RackKind::NineBall)];
+    match section.choice("rack", &racks)? {
+        Some(rack) => Ok(BallsSection { rack, line: section.line() }),
+        None => Err(section.missing(
+            "rack",
+            "[balls] sets up a rack",
+            "write for example rack = \"eight-ball\", or list each ball as [[ball]]",
+        )),
+    }
+}
+
+fn ball(section: &Section<'_>) -> Result<BallSection, SceneError> {
+    section.allow(&[
+        "id",
+        "radius_m",
+        "mass_kg",
+        "inertia_factor",
+        "position_m",
+        "velocity_m_s",
+        "angular_velocity_rad_s",
+        "flags",
+        "spring",
+    ])?;
+    let Some(id) = section.integer("id", 0..=u64::from(u16::MAX))? else {
+        let allowed = "every ball has a number";
+        return Err(section.missing("id", allowed, "write for example id = 1; the cue ball is 0"));
+    };
+    let radius = Limits { low: 1e-4, high: 10.0, unit: "(m)", example: "0.028575" };
+    let mass = Limits { low: 1e-6, high: 1e6, unit: "(kg)", example: "0.17" };
+    let inertia = Limits { low: 1e-3, high: 1.0, unit: "", example: "0.4" };
+    let radius_m = section.number("radius_m", radius)?.unwrap_or(POOL_RADIUS_M);
+    // Two numbers put the ball on z = 0, three say its height as well.
+    let position_m = if section.length("position_m") == Some(2) {
+        section.numbers::<2>("position_m", PLACE)?.map(|[x, y]| DVec3::new(x, y, radius_m))
+    } else {
+        section.vector("position_m", PLACE)?
+    };
+    let Some(position_m) = position_m else {
+        let fix = "write for example position_m = [0, 0]";
+        return Err(section.missing("position_m", "a ball has a place (m)", fix));
+    };
+    let flags = section.section("flags")?.map(|section| flags(&section)).transpose()?;
+    let spring = section.section("spring")?.map(|section| spring(&section)).transpose()?;
+    Ok(BallSection {
+        id: BallId(u16::try_from(id).unwrap_or(u16::MAX)),
+        radius_m,
+        mass_kg: section.number("mass_kg", mass)?.unwrap_or(POOL_MASS_KG),
+        inertia_factor: section.number("inertia_factor", inertia)?.unwrap_or(INERTIA_DEFAULT),
+        position_m,
+        velocity_m_s: section.vector("velocity_m_s", SPEED)?.unwrap_or(DVec3::ZERO),
+        angular_velocity_rad_s: section
+            .vector("angular_velocity_rad_s", SPIN)?
+            .unwrap_or(DVec3::ZERO),
+        flags: flags.unwrap_or_default(),
+        spring,
+        line: section.line(),
+    })
+}
+
+fn flags(section: &Section<'_>) -> Result<BallFlags, SceneError> {
+    section.allow(&["gravity", "integrate", "collide"])?;
+    Ok(BallFlags {
+        gravity: section.switch("gravity")?.unwrap_or(true),
+        integrate: section.switch("integrate")?.unwrap_or(true),
+        collide: section.switch("collide")?.unwrap_or(true),
+    })
+}
+
+fn spring(section: &Section<'_>) -> Result<Spring, SceneError> {
+    section.allow(&[
+        "anchor_m",
+        "anchor_orientation",
+        "stiffness_n_m",
+        "damping_ns_m",
+        "angular_stiffness_nm_rad",
+        "angular_damping_nms_rad",
+    ])?;
+    let strength = |unit| Limits { low: 0.0, high: 1e7, unit, example: "100.0" };
+    let number = |key, unit| Ok(section.number(key, strength(unit))?.unwrap_or(0.0));
+    let component = Limits { low: -1.0, high: 1.0, unit: "", example: "0.5" };
+    let anchor_orientation = match section.numbers::<4>("anchor_orientation", component)? {
+        Some(numbers) if DQuat::from_array(numbers).length() > 0.1 => {
+            DQuat::from_array(numbers).normalize()
+        }
+        Some(_) => {
+            return Err(section.error(
+                "anchor_orientation",
+                "expected a unit quaternion x, y, z, w",
+                "write for example anchor_orientation = [0, 0, 0, 1]",
+            ));
+        }
+        None => DQuat::IDENTITY,
+    };
+    Ok(Spring {
+        anchor_m: section.vector("anchor_m", PLACE)?.unwrap_or(DVec3::ZERO),
+        anchor_orientation,
+        stiffness_n_m: number("stiffness_n_m", "(N/m)")?,
+        damping_ns_m: number("damping_ns_m", "(N s/m)")?,
+        angular_stiffness_nm_rad: number("angular_stiffness_nm_rad", "(N m/rad)")?,
+        angular_damping_nms_rad: number("angular_damping_nms_rad", "(N m s/rad)")?,
+    })
+}
+
+fn rules(section: &Section<'_>) -> Result<RulesSection, SceneError> {
+    section.allow(&["game"])?;
+    let games = Game::ALL.map(|game| ([game.name(), game.id()], game));
+    let choices: Vec<(&[&'static str], Game)> =
+        games.iter().map(|(names, game)| (&names[..], *game)).collect();
+    match section.choice("game", &choices)? {
+        Some(game) => Ok(RulesSection { game }),
+        None => Err(section.missing(
+            "game",
+            "[rules] names a game",
+            "write for example game = \"paper-eight-ball\"",
+        )),
+    }
+}
+
+fn player(section: &Section<'_>) -> Result<PlayerSection, SceneError> {
+    section.allow(&["name", "kind", "noise", "throw_factor"])?;
+    let kinds = [PlayerKind::Human, PlayerKind::Paper, PlayerKind::Recorded]
+        .map(|kind| ([kind.name()], kind));
+    let choices: Vec<(&[&'static str], PlayerKind)> =
+        kinds.iter().map(|(names, kind)| (&names[..], *kind)).collect();
+    let Some(kind) = section.choice("kind", &choices)? else {
+        let allowed = "a player is human, paper or recorded";
+        return Err(section.missing("kind", allowed, "write for example kind = \"human\""));
+    };
+    let noise =
+        section.number("noise", Limits { low: 0.0, high: 100.0, unit: "", example: "1.0" })?;
+    let throw_factor = section
+        .number("throw_factor", Limits { low: -0.9, high: 1.5, unit: "", example: "0.0" })?;
+    for (key, given) in [("noise", noise.is_some()), ("throw_factor", throw_factor.is_some())] {
+        if given && kind != PlayerKind::Paper {
+            let fix = format!("remove {key}, or write kind = \"paper\"");
+            return Err(section.error(key, "only a computer player has it", &fix));
+        }
+    }
+    Ok(PlayerSection {
+        name: section.text("name", "You")?.unwrap_or_else(|| kind.name().to_string()),
+        kind,
+        noise: noise.unwrap_or(1.0),
+        throw_factor,
+        line: section.line(),
+    })
+}
+
+fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
+    section.allow(&["width", "height", "fullscreen"])?;
+    let pixels = |key, default: u32| {
+        let pixels = section.integer(key, 64..=16_384)?;
+        Ok(pixels.and_then(|pixels| u32::try_from(pixels).ok()).unwrap_or(default))
+    };
+    Ok(RendererSection {
+        width: pixels("width", 1280)?,
+        height: pixels("height", 720)?,
+        fullscreen: section.switch("fullscreen")?.unwrap_or(false),
+    })
+}
+
+fn input(section: &Section<'_>) -> Result<InputSection, SceneError> {
+    section.allow(&["profile"])?;
+    let profile = section.choice("profile", &[(&["default"], "default")])?;
+    Ok(InputSection { profile: profile.unwrap_or("default").to_string() })
+}
+
+fn actors(section: &Section<'_>) -> Result<ActorsSection, SceneError> {
+    section.allow(&["input"])?;
+    let Some(text) = section.text("input", "recorded:game.jsonl")? else {
+        return Ok(ActorsSection { input: None });
+    };
+    if text == "real" {
+        return Ok(ActorsSection { input: None });
+    }
+    match text.strip_prefix("recorded:") {
+        Some(file) if !file.is_empty() => {
+            Ok(ActorsSection { input: Some(StandIn::Recorded(file.to_string())) })
+        }
+        _ => Err(section.error(
+            "input",
+            "expected \"real\" or \"recorded:FILE\"",
+            "write for example input = \"recorded:game.jsonl\"",
+        )),
+    }
+}
