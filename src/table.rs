@@ -19,6 +19,8 @@ mod pocket;
 
 mod physics_mesh;
 
+mod clearance;
+
 pub use parameters::{PocketParameters, TableParameters};
 
 use crate::ids::PocketId;

@@ -2,3 +2,6 @@
 
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
+
+/// Racks: order of the balls, gaps, spotting.
+mod rack;
