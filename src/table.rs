@@ -21,6 +21,9 @@ mod physics_mesh;
 
 mod clearance;
 
+mod display;
+
+pub use display::{DisplayPart, Material};
 pub use parameters::{PocketParameters, TableParameters};
 
 use crate::ids::PocketId;

@@ -60,7 +60,9 @@ fn eight_stands_in_the_third_row_and_back_corners_differ() {
         let mut all = order.clone();
         all.sort_unstable();
         assert_eq!(all, (1..=15).collect::<Vec<u16>>());
-        assert!(position(&balls, order[0]).distance(DVec2::new(0.635, 0.0)) <= JITTER_MAX_M + 1e-12);
+        assert!(
+            position(&balls, order[0]).distance(DVec2::new(0.635, 0.0)) <= JITTER_MAX_M + 1e-12
+        );
         assert_eq!(position(&balls, 0), DVec2::new(-0.635, 0.0));
         apexes.insert(order[0]);
         right_is_solid[usize::from(order[10] < 8)] = true;
