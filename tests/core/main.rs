@@ -8,3 +8,6 @@ mod scene;
 mod table;
 /// What the clock leaves out and what it must not.
 mod tick;
+
+/// Racks: order of the balls, gaps, spotting.
+mod rack;
