@@ -209,7 +209,11 @@ impl Recording {
         let header = match parse_line(1, first, false)? {
             Line::Recording(header) => header,
             _ => {
-                return Err(wrong(1, "the first line is no header", "begin with {\"recording\":…}"));
+                return Err(wrong(
+                    1,
+                    "the first line is no header",
+                    "begin with {\"recording\":…}",
+                ));
             }
         };
         if header.version != VERSION {
