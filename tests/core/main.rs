@@ -11,3 +11,5 @@ mod tick;
 
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+/// The referee, the rule console and the scenarios of the paper's eight-ball.
+mod rules;
