@@ -1,1 +1,4 @@
 //! Tests of the cores: pure, milliseconds.
+
+/// The computer player: planning, cue motion, turn states.
+mod ai;
