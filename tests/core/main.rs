@@ -2,3 +2,8 @@
 
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+/// Tables: dimensions measured back from the vertices, closed body, pockets.
+mod table;
+
+/// Racks: order of the balls, gaps, spotting.
+mod rack;
