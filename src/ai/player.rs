@@ -191,6 +191,8 @@ impl Player {
     /// Takes one event of a tick's mail.
     fn hear(&mut self, event: &Event, delivered: &Delivered, out: &mut Outcome) {
         match event {
+            // The referee calls again after a refused placement; by then the next is under way.
+            Event::Turn(turn) if self.is_preparing(turn) => {}
             Event::Turn(turn) if turn.player == self.id => {
                 self.leave_table(out);
                 self.begin_turn(turn.clone(), delivered, out);
@@ -216,6 +218,19 @@ impl Player {
                 _ => {}
             },
             _ => {}
+        }
+    }
+
+    /// Whether this very turn has begun and its shot has not.
+    fn is_preparing(&self, turn: &Turn) -> bool {
+        let same = self
+            .turn
+            .as_ref()
+            .is_some_and(|own| (own.player, own.shot_number) == (turn.player, turn.shot_number));
+        same && match self.state {
+            PlayerState::Idle => self.placing.is_some(),
+            PlayerState::Lazing | PlayerState::Aiming | PlayerState::Shooting => true,
+            PlayerState::Analyzing | PlayerState::Done => false,
         }
     }
 
@@ -457,7 +472,13 @@ impl Participant for Player {
         hash.u64(rng as u64);
         hash.u64((rng >> 64) as u64);
         hash.u64(self.played_from.map_or(0, |zone| 1 + zone as u64));
-        hash.u64(self.turn.as_ref().map_or(0, |turn| u64::from(turn.shot_number) + 1));
+        if let Some(turn) = &self.turn {
+            hash.u64(u64::from(turn.shot_number));
+            hash.u64(turn.shot as u64);
+            hash.u64(turn.ball_in_hand as u64);
+            hash.u64(u64::from(turn.groups.is_some()));
+            turn.legal_first.iter().for_each(|ball| hash.u64(u64::from(ball.0)));
+        }
         if let Some(placing) = &self.placing {
             hash.u64(1 + placing.zone as u64);
             hash.u64(u64::from(placing.tries));

@@ -33,7 +33,6 @@ pub struct TableView2d {
 impl TableView2d {
     /// Looks at the table from above.
     pub fn of(table: &Snapshot, bed: &Bed, pockets: &[Pocket], ball_radius_m: f64) -> Self {
-        let seen = |id, position: glam::DVec3| SeenBall { id, position: position.truncate() };
         TableView2d {
             cue_ball: table
                 .on_table()
@@ -42,7 +41,7 @@ impl TableView2d {
             balls: table
                 .on_table()
                 .filter(|ball| ball.id != BallId::CUE)
-                .map(|ball| seen(ball.id, ball.position))
+                .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
                 .collect(),
             ball_radius_m,
             bed: *bed,

@@ -5,44 +5,30 @@ mod player;
 mod stroke;
 
 use glam::DVec2;
-use hapticbillard::ai::{SeenBall, TableView2d};
+use hapticbillard::ai::{Clearance, SeenBall, TableView2d};
 use hapticbillard::ball::POOL_RADIUS_M;
-use hapticbillard::ids::{BallId, PocketId};
-use hapticbillard::table::{Bed, Pocket};
+use hapticbillard::ids::BallId;
+use hapticbillard::table::{Bed, Pocket, Table};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use std::sync::{Arc, OnceLock};
 
 pub const R: f64 = POOL_RADIUS_M;
 pub const BED: Bed = Bed { length_m: 2.54, width_m: 1.27 };
 
-/// Six pockets with mouths of 116 and 128 mm.
+/// The table that is played on.
+pub fn table() -> &'static Table {
+    static TABLE: OnceLock<Table> = OnceLock::new();
+    TABLE.get_or_init(|| Table::preset("pool-9ft").expect("a shipped table"))
+}
+
 pub fn pockets() -> Vec<Pocket> {
-    let (x, y) = (0.5 * BED.length_m, 0.5 * BED.width_m);
-    let corner = |id, sx: f64, sy: f64| {
-        let cut = 0.116 / 2.0_f64.sqrt();
-        Pocket {
-            id,
-            mouth: [DVec2::new(sx * (x - cut), sy * y), DVec2::new(sx * x, sy * (y - cut))],
-            centre: DVec2::new(sx * (x + 0.02), sy * (y + 0.02)),
-            radius_m: 0.06,
-            heading: DVec2::new(sx, sy).normalize(),
-        }
-    };
-    let side = |id, sy: f64| Pocket {
-        id,
-        mouth: [DVec2::new(-0.064, sy * y), DVec2::new(0.064, sy * y)],
-        centre: DVec2::new(0.0, sy * (y + 0.045)),
-        radius_m: 0.06,
-        heading: DVec2::new(0.0, sy),
-    };
-    vec![
-        corner(PocketId::Hl, -1.0, 1.0),
-        corner(PocketId::Hr, -1.0, -1.0),
-        side(PocketId::Ml, 1.0),
-        side(PocketId::Mr, -1.0),
-        corner(PocketId::Fl, 1.0, 1.0),
-        corner(PocketId::Fr, 1.0, -1.0),
-    ]
+    table().pockets.clone()
+}
+
+/// How steep the cue must be to clear the rails.
+pub fn clearance() -> Clearance {
+    Arc::new(|cue_ball, azimuth_rad| table().clearance_elevation(cue_ball, azimuth_rad))
 }
 
 /// A table seen from above.

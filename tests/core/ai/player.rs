@@ -1,6 +1,6 @@
 //! The turn of a computer player against a scripted table.
 
-use super::{BED, R, pockets, random_view};
+use super::{BED, R, clearance, pockets, random_view};
 use glam::{DQuat, DVec2, DVec3};
 use hapticbillard::ai::{Player, PlayerSettings, Stroke, TableView2d};
 use hapticbillard::ball::{BallPlace, BallState, Motion};
@@ -20,7 +20,7 @@ const ME: PlayerId = PlayerId::ONE;
 
 fn player(seed: u64) -> Player {
     let settings = PlayerSettings::paper(seed, Profile::Standard);
-    Player::new(ME, settings, BED, pockets(), R, Arc::new(|_, _| 0.07))
+    Player::new(ME, settings, BED, pockets(), R, clearance())
 }
 
 /// What a world would do with the player's commands, as far as a script needs it.
@@ -269,6 +269,21 @@ fn ball_in_hand_is_placed_elsewhere_until_it_is_accepted() {
 }
 
 #[test]
+fn a_turn_that_is_called_again_does_not_begin_again() {
+    let view = random_view(9, 5);
+    let mut script = Script::new(3, snapshot(&view, BallPlace::InHand));
+    script.refuse = 1;
+    script.mail.push(turn(ME, &view, BallInHand::Kitchen));
+    // Refused, answered with the next spot; the referee's call comes with that spot's acceptance.
+    script.step();
+    script.step();
+    script.mail.push(turn(ME, &view, BallInHand::Kitchen));
+    script.run_to(Analyzing);
+    assert_eq!((script.placed.len(), script.strokes.len()), (2, 1));
+    assert_eq!(script.names(), [Lazing, Aiming, Shooting, Analyzing]);
+}
+
+#[test]
 fn a_stroke_that_meets_nothing_is_tried_again_and_never_stalls() {
     let view = random_view(11, 4);
     for (misses, lazes) in [(1, 1), (3, 1), (5, 2)] {
@@ -329,7 +344,7 @@ fn noise_spoils_the_stroke_but_not_the_plan() {
         let view = random_view(5, 6);
         let settings = PlayerSettings { noise, ..PlayerSettings::paper(7, Profile::Standard) };
         let mut script = Script::new(7, snapshot(&view, BallPlace::OnTable));
-        script.player = Player::new(ME, settings, BED, pockets(), R, Arc::new(|_, _| 0.07));
+        script.player = Player::new(ME, settings, BED, pockets(), R, clearance());
         script.mail.push(turn(ME, &view, BallInHand::None));
         script.run_to(Analyzing);
         let plan = script.player.plan().unwrap().clone();
