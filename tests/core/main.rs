@@ -4,6 +4,8 @@
 mod event_manager;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
+/// The computer player: planning, cue motion, turn states.
+mod ai;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.
