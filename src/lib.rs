@@ -43,6 +43,6 @@ pub mod input;
 
 pub mod renderer;
 
-pub mod replay;
+pub mod tally;
 
-pub mod lockstep;
+pub mod replay;

@@ -1,10 +1,10 @@
 //! Configuration that is compiled in, so that the program runs from any folder.
 
 /// The tables, by name: the text of `config/tables/NAME.toml`.
-pub const TABLES: [(&str, &str); 1] = [("pool-9ft", "")];
+pub const TABLES: &[(&str, &str)] = &[("pool-9ft", include_str!("../config/tables/pool-9ft.toml"))];
 
 /// The scenes, by name: the text of `config/scenes/NAME.toml`.
-pub const SCENES: [(&str, &str); 6] = [
+pub const SCENES: &[(&str, &str)] = &[
     ("eight_ball", include_str!("../config/scenes/eight_ball.toml")),
     ("eight_ball_headless", include_str!("../config/scenes/eight_ball_headless.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
@@ -13,7 +13,12 @@ pub const SCENES: [(&str, &str); 6] = [
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),
 ];
 
-/// The text of a shipped scene.
+/// Parameters of the shipped table `name`, as TOML.
+pub fn table(name: &str) -> Option<&'static str> {
+    TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// The text of the shipped scene `name`.
 pub fn scene(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }

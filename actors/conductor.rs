@@ -1,0 +1,246 @@
+//! The actor that owns the logical clock: does what [`Clock`] says, one tick a message.
+//!
+//! Asks run down a tree: conductor → input, physics, event manager; event manager → participants.
+//! Nobody asks upwards or sideways. A [`Step`] does one tick and returns, so that a message to stop
+//! or to pause is read between any two ticks; who wants time to run sends steps (see
+//! [`crate::pacer`]).
+
+use crate::event_manager::{DeliveryError, EventManager, Seal};
+use crate::input::{Entered, FrameOf};
+use crate::physics::{Advance, Coast, Moved, Physics};
+use crate::recorder::{Record, Recorder};
+use hapticbillard::hash::Digest;
+use hapticbillard::physics::{PhysicsError, Snapshot};
+use hapticbillard::replay::{Divergence, Line, Recording, TickHash};
+use hapticbillard::tick::{Advanced, Clock, End, Finished, Inflow, Next};
+use hapticbillard::units::Tick;
+use kameo::prelude::*;
+use std::sync::Arc;
+
+/// Why a run stopped before its end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The simulation cannot go on.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
+    /// A tick could not be delivered.
+    #[error(transparent)]
+    Delivery(#[from] DeliveryError),
+    /// A replay is not what was recorded.
+    #[error(transparent)]
+    Diverged(#[from] Divergence),
+    /// An actor is gone.
+    #[error("the {actor} actor stopped at tick {}: {reason}", tick.0)]
+    Gone {
+        /// Which.
+        actor: &'static str,
+        /// When.
+        tick: Tick,
+        /// Why.
+        reason: String,
+    },
+    /// The recording cannot be written.
+    #[error("the recording cannot be written: {0}")]
+    Recording(String),
+    /// The runtime itself cannot start.
+    #[error("the actor runtime cannot start: {0}")]
+    Start(String),
+}
+
+/// Who is below the conductor.
+pub struct Below {
+    /// The simulation.
+    pub physics: ActorRef<Physics>,
+    /// The event manager.
+    pub events: ActorRef<EventManager>,
+    /// Whoever acts from outside, or stands in for them.
+    pub input: Option<ReplyRecipient<FrameOf, Entered>>,
+    /// Writes the recording.
+    pub recorder: Option<ActorRef<Recorder>>,
+    /// What to check the run against.
+    pub verify: Option<Arc<Recording>>,
+}
+
+/// Owns the clock.
+#[derive(Actor)]
+pub struct Conductor {
+    clock: Clock,
+    below: Below,
+    /// Asked from the input before the first tick; none while nothing is known.
+    next_frame: Option<Tick>,
+    primed: bool,
+    last: Last,
+    verified: u64,
+}
+
+#[derive(Default)]
+struct Last {
+    table: Arc<Snapshot>,
+    physics: Digest,
+    hash: Option<TickHash>,
+}
+
+impl Conductor {
+    /// A conductor before the first tick.
+    pub fn new(clock: Clock, below: Below) -> Self {
+        Conductor { clock, below, next_frame: None, primed: false, last: Last::default(), verified: 0 }
+    }
+}
+
+/// Do one tick.
+pub struct Step;
+
+/// How far the game is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Progress {
+    /// It goes on.
+    Running,
+    /// Time stands still.
+    Paused,
+    /// It is over.
+    Finished(Finished),
+}
+
+/// What a step did.
+#[derive(Debug, Reply)]
+pub struct Stepped(pub Result<(Tick, Progress), RunError>);
+
+impl Message<Step> for Conductor {
+    type Reply = Stepped;
+
+    async fn handle(&mut self, _: Step, _: &mut Context<Self, Stepped>) -> Stepped {
+        let progress = self.step().await;
+        Stepped(progress.map(|progress| (self.clock.now(), progress)))
+    }
+}
+
+/// End the game here.
+pub struct Quit;
+
+impl Message<Quit> for Conductor {
+    type Reply = Stepped;
+
+    async fn handle(&mut self, _: Quit, _: &mut Context<Self, Stepped>) -> Stepped {
+        self.clock.quit();
+        let progress = self.finish(End::Quit).await;
+        Stepped(progress.map(|progress| (self.clock.now(), progress)))
+    }
+}
+
+impl Conductor {
+    /// One tick, from frame to answers; or a coast that met nothing.
+    async fn step(&mut self) -> Result<Progress, RunError> {
+        if !self.primed {
+            self.primed = true;
+            self.inflow(Tick(0)).await?;
+        }
+        match self.clock.next(self.next_frame) {
+            Next::Coast { limit, stop } => {
+                let moved = self.below.physics.ask(Coast { limit, stop }).await;
+                let reached = self.moved(moved)?;
+                if let Some(seal) = self.clock.coasted(reached.tick, reached.facts) {
+                    self.seal(seal).await?;
+                }
+            }
+            Next::Frame(tick) => {
+                let inflow = self.inflow(tick).await?;
+                if inflow.quit {
+                    self.clock.quit();
+                    return self.finish(End::Quit).await;
+                }
+                if inflow.paused {
+                    self.clock.pause();
+                }
+                if !inflow.frame.is_empty() {
+                    // On disk before it is used.
+                    self.record(Line::Frame { tick, publish: inflow.frame.clone() }).await?;
+                }
+                let Next::Advance { tick, commands } = self.clock.framed(tick, inflow.frame) else {
+                    return Ok(Progress::Running);
+                };
+                let moved = self.below.physics.ask(Advance { tick, commands }).await;
+                let reached = self.moved(moved)?;
+                if let Some(seal) = self.clock.advanced(reached.facts) {
+                    self.seal(seal).await?;
+                }
+            }
+            Next::Paused => {
+                let inflow = self.inflow(self.clock.now().after(1)).await?;
+                if inflow.quit {
+                    self.clock.quit();
+                    return self.finish(End::Quit).await;
+                }
+                if !inflow.paused {
+                    self.clock.resume();
+                }
+                return Ok(Progress::Paused);
+            }
+            Next::Finished(end) => return self.finish(end).await,
+            Next::Advance { .. } | Next::Seal { .. } => {}
+        }
+        Ok(Progress::Running)
+    }
+
+    async fn inflow(&mut self, tick: Tick) -> Result<Inflow, RunError> {
+        let Some(input) = &self.below.input else {
+            return Ok(Inflow::default());
+        };
+        let inflow = input.ask(FrameOf(tick)).send().await.map_err(|e| self.gone("input", e))?.0;
+        self.next_frame = inflow.next;
+        Ok(inflow)
+    }
+
+    fn moved<E: std::fmt::Display>(
+        &mut self,
+        answer: Result<Moved, E>,
+    ) -> Result<Advanced, RunError> {
+        let reached = answer.map_err(|e| self.gone("physics", e))?.0?;
+        self.last.table = reached.table.clone();
+        self.last.physics = reached.digest;
+        Ok(reached)
+    }
+
+    async fn seal(&mut self, seal: Next) -> Result<(), RunError> {
+        let Next::Seal { tick, frame, facts } = seal else {
+            return Ok(());
+        };
+        let table = self.last.table.clone();
+        let answer = self.below.events.ask(Seal { tick, frame, facts, table }).await;
+        let delivery = answer.map_err(|e| self.gone("event manager", e))?.0?;
+        let hash = TickHash::new(tick, self.last.physics, delivery.digests, &self.last.table);
+        if let Some(recorded) = self.below.verify.as_ref().and_then(|r| r.hashes.get(&tick)) {
+            if let Some(divergence) = hash.divergence(recorded) {
+                return Err(divergence.into());
+            }
+            self.verified += 1;
+        }
+        if delivery.fact {
+            self.record(Line::Hash(hash.clone())).await?;
+        }
+        self.last.hash = Some(hash);
+        self.clock.sealed(delivery.sealed);
+        Ok(())
+    }
+
+    async fn record(&mut self, line: Line) -> Result<(), RunError> {
+        if let Some(recorder) = &self.below.recorder {
+            let written = recorder.ask(Record(line)).await.map_err(|e| self.gone("recorder", e))?;
+            written.0.map_err(|error| RunError::Recording(error.to_string()))?;
+        }
+        Ok(())
+    }
+
+    async fn finish(&mut self, end: End) -> Result<Progress, RunError> {
+        let tick = self.clock.now();
+        if let Some(recording) = &self.below.verify {
+            recording.check_end(tick, self.verified)?;
+        }
+        self.record(Line::End { tick, reason: end }).await?;
+        let hash = self.last.hash.clone();
+        Ok(Progress::Finished(Finished { end, tick, hash, verified: self.verified }))
+    }
+
+    fn gone(&self, actor: &'static str, error: impl std::fmt::Display) -> RunError {
+        RunError::Gone { actor, tick: self.clock.now(), reason: error.to_string() }
+    }
+}

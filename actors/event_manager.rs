@@ -1,0 +1,161 @@
+//! The actor of the event manager: seals a tick, delivers it, takes the answers.
+//!
+//! It asks its subscribers and nobody else; nobody asks it but the conductor. Participants answer
+//! within the tick (all are asked at once, the answers taken in order of registration). Sinks get
+//! theirs by `try_send` on a bounded channel: a sink that lags loses its own mail, which is
+//! counted in [`Sink::dropped`], and delays nobody.
+
+use crate::participant::{Answer, Mail, Seat};
+use hapticbillard::event_manager::{EventManager as Core, QueueFull};
+use hapticbillard::events::{Event, Fact, Source, Topics};
+use hapticbillard::hash::Digest;
+use hapticbillard::physics::Snapshot;
+use hapticbillard::tick::{Delivered, Frame, Sealed};
+use hapticbillard::units::Tick;
+use kameo::prelude::*;
+use smallvec::SmallVec;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A listener outside the tick and outside the hash: window, sound.
+pub struct Sink {
+    /// What it wants to be told.
+    pub topics: Topics,
+    /// Where its mail goes.
+    pub mail: flume::Sender<Delivered>,
+    /// How many batches it was too slow for.
+    pub dropped: Arc<AtomicU64>,
+}
+
+enum Subscriber {
+    Seat(Source, ReplyRecipient<Mail, Answer>),
+    Sink(Sink),
+}
+
+/// Owns the core and knows everybody who listens.
+#[derive(Actor)]
+pub struct EventManager {
+    core: Core,
+    subscribers: Vec<Subscriber>,
+}
+
+impl EventManager {
+    /// Registers participants, then sinks, and takes what the participants said at the start.
+    ///
+    /// # Errors
+    /// [`QueueFull`] if they publish more than the queue holds.
+    pub fn new(seats: Vec<Seat>, sinks: Vec<Sink>) -> Result<Self, QueueFull> {
+        let mut core = Core::new();
+        let mut subscribers = Vec::new();
+        let mut first = Vec::new();
+        for seat in seats {
+            let id = core.register(seat.source, seat.topics);
+            first.push((id, seat.first));
+            subscribers.push(Subscriber::Seat(seat.source, seat.recipient));
+        }
+        for sink in sinks {
+            core.subscribe(sink.topics);
+            subscribers.push(Subscriber::Sink(sink));
+        }
+        for (id, answer) in first {
+            core.answer(id, Tick(0), answer.outcome, answer.digest)?;
+        }
+        Ok(EventManager { core, subscribers })
+    }
+
+    /// What the clock needs to know before the first tick.
+    pub fn before_first(&self) -> Sealed {
+        self.core.sealed()
+    }
+}
+
+/// Publish, seal and deliver a tick.
+pub struct Seal {
+    /// The tick.
+    pub tick: Tick,
+    /// What came from outside.
+    pub frame: Frame,
+    /// What physics saw.
+    pub facts: Vec<Fact>,
+    /// The visible world at the tick's end.
+    pub table: Arc<Snapshot>,
+}
+
+/// What became of it.
+#[derive(Debug, Reply)]
+pub struct Delivery {
+    /// For the clock.
+    pub sealed: Sealed,
+    /// The participants' state hashes.
+    pub digests: SmallVec<[(Source, Digest); 4]>,
+    /// A fact was delivered, so the state is worth a hash.
+    pub fact: bool,
+}
+
+/// Why a tick could not be delivered.
+#[derive(Debug, thiserror::Error)]
+pub enum DeliveryError {
+    /// Too many events.
+    #[error(transparent)]
+    Full(#[from] QueueFull),
+    /// A participant is gone.
+    #[error("{who:?} stopped at tick {}: {reason}", tick.0)]
+    Gone {
+        /// Who.
+        who: Source,
+        /// When.
+        tick: Tick,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// The answer, as data.
+#[derive(Debug, Reply)]
+pub struct SealAnswer(pub Result<Delivery, DeliveryError>);
+
+impl Message<Seal> for EventManager {
+    type Reply = SealAnswer;
+
+    async fn handle(&mut self, seal: Seal, _: &mut Context<Self, SealAnswer>) -> SealAnswer {
+        SealAnswer(self.deliver(seal).await)
+    }
+}
+
+impl EventManager {
+    async fn deliver(&mut self, seal: Seal) -> Result<Delivery, DeliveryError> {
+        let Seal { tick, frame, facts, table } = seal;
+        for publication in frame {
+            self.core.publish(Source::Input, tick, publication)?;
+        }
+        self.core.publish_now(Source::Physics, tick, facts.into_iter().map(Event::Fact))?;
+
+        let mut fact = false;
+        let mut asked = Vec::new();
+        for delivery in self.core.seal(tick) {
+            fact |= delivery.events.iter().any(|stamped| matches!(stamped.event, Event::Fact(_)));
+            let mail = Delivered { tick, events: delivery.events, table: table.clone() };
+            match &self.subscribers[delivery.to.0] {
+                Subscriber::Seat(source, recipient) => {
+                    asked.push(((delivery.to, *source), recipient.ask(Mail(mail)).send()));
+                }
+                Subscriber::Sink(sink) => {
+                    if let Err(flume::TrySendError::Full(_)) = sink.mail.try_send(mail) {
+                        sink.dropped.fetch_add(1, Ordering::Relaxed);
+                    }
+                }
+            }
+        }
+        let (ids, replies): (Vec<_>, Vec<_>) = asked.into_iter().unzip();
+        let answers = futures_util::future::join_all(replies).await;
+        for ((id, who), answer) in ids.into_iter().zip(answers) {
+            let answer = answer.map_err(|error| DeliveryError::Gone {
+                who,
+                tick,
+                reason: error.to_string(),
+            })?;
+            self.core.answer(id, tick, answer.outcome, answer.digest)?;
+        }
+        Ok(Delivery { sealed: self.core.sealed(), digests: self.core.digests(), fact })
+    }
+}

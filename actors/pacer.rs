@@ -1,0 +1,105 @@
+//! Makes time run: sends the conductor one step after another.
+//!
+//! A paced game keeps to real time: ticks are sent in small groups, because the timers of the
+//! runtime have a grain of a millisecond. When a tick takes too long, game time slows; ticks are
+//! never skipped.
+
+use crate::conductor::{Conductor, Progress, Quit, RunError, Step};
+use hapticbillard::tick::{End, Finished};
+use hapticbillard::units::Tick;
+use kameo::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+use tokio::time::Instant;
+
+/// Whether a game keeps to real time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tempo {
+    /// As fast as possible.
+    Free,
+    /// This many seconds of the game per second: 1 for play.
+    RealTime(f64),
+}
+
+/// How far a paced game may lag before it gives the lost time up.
+const LAG_MAX: Duration = Duration::from_millis(50);
+/// How long the pacer sleeps at least.
+const GRAIN: Duration = Duration::from_millis(2);
+
+/// A flag by which anybody (Ctrl-C, a closed window) ends the game between two ticks.
+#[derive(Debug, Default, Clone)]
+pub struct StopFlag(Arc<AtomicBool>);
+
+impl StopFlag {
+    /// Asks for the end.
+    pub fn set(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+
+    /// Whether somebody asked for the end.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Acquire)
+    }
+}
+
+/// Runs a game to its end.
+///
+/// # Errors
+/// What the conductor says.
+pub async fn run(
+    conductor: &ActorRef<Conductor>,
+    tempo: Tempo,
+    stop: &StopFlag,
+) -> Result<Finished, RunError> {
+    let mut start = (Instant::now(), Tick(0));
+    loop {
+        let stepped = if stop.is_set() {
+            conductor.ask(Quit).await.map_err(gone)?
+        } else {
+            conductor.ask(Step).await.map_err(gone)?
+        };
+        let (tick, progress) = stepped.0?;
+        match progress {
+            Progress::Finished(finished) => return Ok(finished),
+            Progress::Paused => {
+                tokio::time::sleep(Duration::from_millis(10)).await;
+                start = (Instant::now(), tick);
+            }
+            Progress::Running => {
+                if let Tempo::RealTime(rate) = tempo {
+                    start = pace(start, tick, rate).await;
+                }
+            }
+        }
+    }
+}
+
+/// Waits until the tick's time has come; returns where time is counted from.
+async fn pace(start: (Instant, Tick), tick: Tick, rate: f64) -> (Instant, Tick) {
+    let due = start.0 + Duration::from_secs_f64((tick.0 - start.1.0) as f64 / 1000.0 / rate);
+    let now = Instant::now();
+    if now + GRAIN < due {
+        tokio::time::sleep_until(due).await;
+    } else if due + LAG_MAX < now {
+        return (now, tick);
+    }
+    start
+}
+
+fn gone<M, E: std::fmt::Debug>(error: kameo::error::SendError<M, E>) -> RunError
+where
+    kameo::error::SendError<M, E>: std::fmt::Display,
+{
+    RunError::Gone { actor: "conductor", tick: Tick(0), reason: error.to_string() }
+}
+
+/// Why a finished game's end is worth a word to the player.
+pub fn describe(end: End) -> &'static str {
+    match end {
+        End::Over => "the game is over",
+        End::Quit => "the game was ended",
+        End::Idle => "nothing moves and nobody acts any more",
+        End::Limit => "the time limit was reached",
+    }
+}

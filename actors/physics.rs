@@ -1,0 +1,69 @@
+//! The actor of the simulation: runs [`tick::coast`] and [`tick::advance`], nothing else.
+
+use hapticbillard::events::{Command, FactSet};
+use hapticbillard::physics::{PhysicsError, Simulation, Snapshot};
+use hapticbillard::tick::{self, Advanced};
+use hapticbillard::units::Tick;
+use kameo::prelude::*;
+use smallvec::SmallVec;
+use std::sync::Arc;
+
+/// Owns the simulation.
+#[derive(Actor)]
+pub struct Physics {
+    simulation: Simulation,
+    /// The newest state of the world, for whoever draws it: a stream, so it goes through a slot.
+    world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+}
+
+impl Physics {
+    /// Joins the simulation with the slot for its picture, if somebody draws one.
+    pub fn new(simulation: Simulation, world: Option<triple_buffer::Input<Arc<Snapshot>>>) -> Self {
+        Physics { simulation, world }
+    }
+
+    fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
+        if let (Some(world), Ok(advanced)) = (&mut self.world, &moved) {
+            world.write(advanced.table.clone());
+        }
+        Moved(moved)
+    }
+}
+
+/// Run to the end of `limit`, or of the first tick with a fact in `stop`.
+pub struct Coast {
+    /// The last tick that may be reached.
+    pub limit: Tick,
+    /// What to stop at.
+    pub stop: FactSet,
+}
+
+/// Apply commands at the start of a tick and run to its end.
+pub struct Advance {
+    /// The tick.
+    pub tick: Tick,
+    /// In stamp order.
+    pub commands: SmallVec<[Command; 2]>,
+}
+
+/// The answer, as data: an error must not look like a fault of the actor.
+#[derive(Reply)]
+pub struct Moved(pub Result<Advanced, PhysicsError>);
+
+impl Message<Coast> for Physics {
+    type Reply = Moved;
+
+    async fn handle(&mut self, message: Coast, _: &mut Context<Self, Moved>) -> Moved {
+        let moved = tick::coast(&mut self.simulation, message.limit, message.stop);
+        self.show(moved)
+    }
+}
+
+impl Message<Advance> for Physics {
+    type Reply = Moved;
+
+    async fn handle(&mut self, message: Advance, _: &mut Context<Self, Moved>) -> Moved {
+        let moved = tick::advance(&mut self.simulation, message.tick, &message.commands);
+        self.show(moved)
+    }
+}

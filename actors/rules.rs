@@ -1,0 +1,17 @@
+//! The actor of the referee.
+
+use crate::participant::{Answer, Mail, collect};
+use hapticbillard::rules::Referee;
+use kameo::prelude::*;
+
+/// Owns the referee.
+#[derive(Actor)]
+pub struct Rules(pub Referee);
+
+impl Message<Mail> for Rules {
+    type Reply = Answer;
+
+    async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
+        collect(&mut self.0, &mail)
+    }
+}

@@ -1,0 +1,200 @@
+//! The runtime: spawns the actors that the scene names, and nothing else.
+//!
+//! This is the only place that decides who runs where; results do not depend on it. Threads of a
+//! headless game: the caller's, which waits, and [`Setup::workers`] of tokio; physics and the
+//! recorder have one each where they are asked for.
+
+use crate::ai::Ai;
+use crate::conductor::{Below, Conductor, RunError};
+use crate::event_manager::{EventManager, Sink};
+use crate::input::{Input, StandIn};
+use crate::observer::Observer;
+use crate::pacer::{self, StopFlag, Tempo};
+use crate::participant::{self, Answer, Mail, Seat};
+use crate::physics::Physics;
+use crate::recorder::Recorder;
+use crate::rules::Rules;
+use hapticbillard::cast::Cast;
+use hapticbillard::input::{HumanView, RawInput};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::replay::{Header, Recording};
+use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
+use hapticbillard::units::Tick;
+use kameo::mailbox;
+use kameo::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How many messages an actor of the tick can have waiting: it is asked once a tick and answers
+/// before the next, so two are one more than ever wait. When it is full the asker waits.
+const MAILBOX: usize = 2;
+/// Lines that may wait for the disk; the conductor waits when it is full.
+const RECORDER_MAILBOX: usize = 64;
+
+/// How a cast is run.
+pub struct Setup {
+    /// Whether ticks without news are left out.
+    pub pace: Pace,
+    /// Whether it keeps to real time.
+    pub tempo: Tempo,
+    /// The last tick of all.
+    pub limit: Tick,
+    /// Who acts from outside.
+    pub input: InputPort,
+    /// Where the recording goes.
+    pub record: Option<(PathBuf, Header)>,
+    /// What the run is checked against.
+    pub verify: Option<Arc<Recording>>,
+    /// Who only watches.
+    pub observers: Vec<Box<dyn Participant>>,
+    /// Who listens outside the tick.
+    pub sinks: Vec<Sink>,
+    /// Where the newest state of the world goes, for a picture.
+    pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// Physics runs on a thread of its own.
+    pub physics_thread: bool,
+    /// Threads of the tokio runtime, at least 1.
+    pub workers: usize,
+    /// Ends the game between two ticks.
+    pub stop: StopFlag,
+}
+
+/// Who acts from outside.
+pub enum InputPort {
+    /// Nobody.
+    None,
+    /// A recording or a script.
+    StandIn(Box<dyn FrameSource>),
+    /// A hand in a window.
+    Hand {
+        /// What devices say.
+        raw: flume::Receiver<RawInput>,
+        /// What the hand sees and does.
+        view: triple_buffer::Input<HumanView>,
+    },
+}
+
+impl Setup {
+    /// As fast as possible, nobody outside, nothing recorded.
+    pub fn headless(limit: Tick) -> Self {
+        Setup {
+            pace: Pace::Jump,
+            tempo: Tempo::Free,
+            limit,
+            input: InputPort::None,
+            record: None,
+            verify: None,
+            observers: Vec::new(),
+            sinks: Vec::new(),
+            world: None,
+            physics_thread: false,
+            workers: 1,
+            stop: StopFlag::default(),
+        }
+    }
+}
+
+/// Runs a game to its end; returns when all its actors have stopped.
+///
+/// # Errors
+/// [`RunError`] if the runtime cannot start, an actor is gone, or the game cannot go on.
+pub fn run(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(setup.workers.max(1))
+        .thread_name("game")
+        .enable_time()
+        .build()
+        .map_err(|error| RunError::Start(error.to_string()))?;
+    runtime.block_on(play(cast, setup))
+}
+
+async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
+    let Cast { simulation, referee, players, human, .. } = cast;
+    let table = simulation.snapshot(0.0);
+
+    // Participants, in the order in which they are registered.
+    let mut seats = Vec::new();
+    seats.extend(referee.map(|core| take_seat(core, Rules, &table)));
+    seats.extend(players.into_iter().map(|core| take_seat(core, Ai, &table)));
+    seats.extend(setup.observers.into_iter().map(|core| take_seat(core, Observer, &table)));
+
+    let input = match (setup.input, human) {
+        (InputPort::None, _) | (InputPort::Hand { .. }, None) => None,
+        (InputPort::StandIn(source), _) => {
+            let actor = spawn(StandIn(source));
+            Some(actor.reply_recipient())
+        }
+        (InputPort::Hand { raw, view }, Some(mut core)) => {
+            let (source, topics) = (core.source(), core.topics());
+            let first = participant::start(&mut core, &table);
+            let actor = spawn(Input::new(core, raw, view));
+            let recipient = actor.clone().reply_recipient::<Mail>();
+            seats.push(Seat { source, topics, first, recipient });
+            Some(actor.reply_recipient())
+        }
+    };
+
+    let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
+    let physics_ref = physics.actor_ref().clone();
+    let body = Physics::new(simulation, setup.world);
+    if setup.physics_thread {
+        physics.spawn_in_thread(body);
+    } else {
+        physics.spawn(body);
+    }
+
+    let recorder = match setup.record {
+        None => None,
+        Some((path, header)) => {
+            let core = Recorder::create(path, header)
+                .map_err(|error| RunError::Recording(error.to_string()))?;
+            let mailbox = mailbox::bounded(RECORDER_MAILBOX);
+            Some(Recorder::spawn_in_thread_with_mailbox(core, mailbox))
+        }
+    };
+
+    let events = EventManager::new(seats, setup.sinks)
+        .map_err(|error| RunError::Delivery(error.into()))?;
+    let clock = Clock::new(setup.pace, setup.limit, events.before_first());
+    let events = spawn(events);
+    let below = Below {
+        physics: physics_ref.clone(),
+        events: events.clone(),
+        input,
+        recorder: recorder.clone(),
+        verify: setup.verify,
+    };
+    let conductor = spawn(Conductor::new(clock, below));
+
+    let finished = pacer::run(&conductor, setup.tempo, &setup.stop).await;
+
+    // From above to below, so that nobody asks somebody who is gone. The participants stop with
+    // the event manager, who holds the last reference to them.
+    stop(conductor).await;
+    stop(physics_ref).await;
+    stop(events).await;
+    if let Some(recorder) = recorder {
+        stop(recorder).await;
+    }
+    finished
+}
+
+fn spawn<A: Actor<Args = A>>(actor: A) -> ActorRef<A> {
+    A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX))
+}
+
+async fn stop<A: Actor>(actor: ActorRef<A>) {
+    // An actor that has stopped already is what is wanted.
+    let _ = actor.stop_gracefully().await;
+    actor.wait_for_shutdown().await;
+}
+
+fn take_seat<P, A>(mut core: P, actor: impl FnOnce(P) -> A, table: &Snapshot) -> Seat
+where
+    P: Participant,
+    A: Actor<Args = A> + Message<Mail, Reply = Answer>,
+{
+    let (source, topics) = (core.source(), core.topics());
+    let first = participant::start(&mut core, table);
+    Seat { source, topics, first, recipient: spawn(actor(core)).reply_recipient() }
+}
