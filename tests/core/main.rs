@@ -2,9 +2,9 @@
 
 /// Order, delay and interest of the event manager.
 mod event_manager;
-/// What the clock leaves out and what it must not.
-mod tick;
-/// Tables: dimensions measured back from the vertices, closed body, pockets.
-mod table;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
+/// Tables: dimensions measured back from the vertices, closed body, pockets.
+mod table;
+/// What the clock leaves out and what it must not.
+mod tick;
