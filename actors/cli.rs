@@ -35,7 +35,8 @@ Examples:
   hapticbillard match --scene eight_ball_headless --games 10
 
 Every command has --help with an example. With --json a command prints JSON lines on stdout, the
-last of which is {\"summary\":{..}}. Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
+last of which is {\"summary\":{..}}.
+Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
 
 #[derive(Parser)]
 #[command(name = "hapticbillard", version, about = ABOUT, after_help = EXAMPLES)]

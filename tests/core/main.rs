@@ -8,3 +8,5 @@ mod scene;
 mod table;
 /// What the clock leaves out and what it must not.
 mod tick;
+/// The shape of the repository.
+mod tidy;
