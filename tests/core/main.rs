@@ -10,3 +10,5 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// The referee, the rule console and the scenarios of the paper's eight-ball.
+mod rules;

@@ -1,0 +1,34 @@
+//! Free play: no fouls, no groups, nobody wins.
+
+use super::shot::Shot;
+use super::state::State;
+use crate::events::{BallInHand, Call, TurnAfter, Verdict};
+
+/// Judges a finished shot: whatever it did, the same player goes on, until no object ball is left.
+pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
+    let verdict = Verdict {
+        player: Some(state.player),
+        legal: true,
+        pocketed: shot.pocketed_balls(),
+        ..Verdict::default()
+    };
+    if is_table_cleared(state, shot) {
+        return Verdict { turn: TurnAfter::End, ..verdict };
+    }
+    Verdict {
+        turn: TurnAfter::Continue,
+        next_player: Some(state.player),
+        ball_in_hand: in_hand_after(shot),
+        ..verdict
+    }
+}
+
+/// The game ends when the last object ball is gone. Without any from the start it never ends.
+fn is_table_cleared(state: &State, shot: &Shot) -> bool {
+    !state.on_table.is_empty() && state.left_by(shot).is_empty()
+}
+
+/// A cue ball that is down or off the table returns in hand anywhere.
+fn in_hand_after(shot: &Shot) -> BallInHand {
+    if shot.cue_pocketed || shot.cue_off { BallInHand::Anywhere } else { BallInHand::None }
+}

@@ -1,0 +1,175 @@
+//! A shot as rules see it: what is left of all its facts.
+//!
+//! It only collects. That a thing is forbidden is for a game to say.
+
+use crate::events::{Fact, FactKind, TouchedBy, Zone};
+use crate::hash::StateHash;
+use crate::ids::{BallId, PlayerId, PocketId, Rail};
+use crate::units::Seconds;
+use smallvec::SmallVec;
+
+/// A ball that went down, where and when.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pocketed {
+    /// When [s].
+    pub time_s: Seconds,
+    /// The ball.
+    pub ball: BallId,
+    /// Where.
+    pub pocket: PocketId,
+}
+
+/// What happened in one shot, from the cue ball's placing to rest. Start with the default.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Shot {
+    /// The last attempt to put the cue ball down before the stroke: the zone it was meant for, and
+    /// whether it could be put there.
+    pub placement: Option<(Zone, bool)>,
+    /// How often a contact of the tip with the cue ball began.
+    pub tips: u32,
+    /// The tip was still on the cue ball when that met another ball.
+    pub push: bool,
+    /// A ball was still moving or spinning when the cue ball was struck.
+    pub moving: bool,
+    /// Who struck, where that was not the player at the table.
+    pub struck_by: Option<PlayerId>,
+    /// When the cue ball first met a ball [s].
+    pub first_contact_s: Option<Seconds>,
+    /// The balls it met then. More than one if it met them at exactly the same time; no rule can
+    /// tell which was first, so none depends on the order in which they were told.
+    pub first_contacts: SmallVec<[BallId; 2]>,
+    /// The ball that was met first lay behind the head string.
+    pub first_in_kitchen: bool,
+    /// All meetings of two balls, in time order.
+    pub contacts: SmallVec<[(BallId, BallId); 16]>,
+    /// Balls driven to a rail, in time order: cushion contacts with `onset` only.
+    pub rails: SmallVec<[(BallId, Rail); 16]>,
+    /// The same, but only from the first contact of the cue ball on.
+    pub rails_after_contact: u32,
+    /// Object balls that went down, in time order; at the same time, the lower number first.
+    pub pocketed: SmallVec<[Pocketed; 4]>,
+    /// Object balls that left the table, in ascending order.
+    pub off: SmallVec<[BallId; 2]>,
+    /// The cue ball went down.
+    pub cue_pocketed: bool,
+    /// The cue ball left the table.
+    pub cue_off: bool,
+    /// Balls that something touched which may not, and what touched them.
+    pub touched: SmallVec<[(BallId, TouchedBy); 2]>,
+    /// The cue ball crossed the head string towards the foot before it met a ball.
+    pub crossed_head_first: bool,
+    /// Everything is at rest: the shot can be judged.
+    pub settled: bool,
+}
+
+/// Adds one fact to the shot. Facts come in time order; those at the same time in any order.
+pub fn watch(shot: &mut Shot, fact: &Fact) {
+    match fact.kind {
+        FactKind::BallPlaced { ball: BallId::CUE, zone, ok } => shot.placement = Some((zone, ok)),
+        // Object balls return by the rules' own command, which is no part of a shot.
+        FactKind::BallPlaced { .. } => {}
+        FactKind::CueBallStruck { ball: BallId::CUE, push, moving, player, .. } => {
+            shot.tips = shot.tips.saturating_add(1);
+            shot.push |= push;
+            shot.moving |= moving;
+            shot.struck_by = shot.struck_by.or(player);
+        }
+        // The tip may meet the cue ball and nothing else.
+        FactKind::CueBallStruck { ball, .. } => shot.touched.push((ball, TouchedBy::Tip)),
+        FactKind::BallsCollided { a, b, in_kitchen, .. } => {
+            shot.contacts.push((a, b));
+            match (a, b) {
+                (BallId::CUE, other) | (other, BallId::CUE) => {
+                    watch_cue_ball_contact(shot, fact.time_s, other, in_kitchen);
+                }
+                _ => {}
+            }
+        }
+        FactKind::CushionHit { ball, rail, onset, .. } => {
+            if onset {
+                shot.rails.push((ball, rail));
+                shot.rails_after_contact += u32::from(shot.first_contact_s.is_some());
+            }
+        }
+        FactKind::HeadStringCrossed { ball } => {
+            shot.crossed_head_first |= ball == BallId::CUE && shot.first_contact_s.is_none();
+        }
+        FactKind::BallPocketed { ball: BallId::CUE, .. } => shot.cue_pocketed = true,
+        FactKind::BallPocketed { ball, pocket, .. } => {
+            watch_pocketed(shot, Pocketed { time_s: fact.time_s, ball, pocket });
+        }
+        FactKind::BallOffTable { ball: BallId::CUE } => shot.cue_off = true,
+        FactKind::BallOffTable { ball } => {
+            if let Err(place) = shot.off.binary_search(&ball) {
+                shot.off.insert(place, ball);
+            }
+        }
+        FactKind::BallTouched { ball, by } => shot.touched.push((ball, by)),
+        FactKind::Settled { .. } => shot.settled = true,
+    }
+}
+
+fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_kitchen: bool) {
+    let first_s = *shot.first_contact_s.get_or_insert(time_s);
+    if first_s == time_s {
+        shot.first_contacts.push(other);
+        shot.first_in_kitchen |= in_kitchen;
+    }
+}
+
+/// A ball is down once: what is told again changes nothing.
+fn watch_pocketed(shot: &mut Shot, new: Pocketed) {
+    if shot.pocketed.iter().any(|old| old.ball == new.ball) {
+        return;
+    }
+    let place = shot.pocketed.partition_point(|old| {
+        old.time_s.total_cmp(&new.time_s).then(old.ball.cmp(&new.ball)).is_lt()
+    });
+    shot.pocketed.insert(place, new);
+}
+
+impl Shot {
+    /// Whether this object ball went down.
+    pub fn has_pocketed(&self, ball: BallId) -> bool {
+        self.pocketed.iter().any(|pocketed| pocketed.ball == ball)
+    }
+
+    /// The object balls that went down, in time order.
+    pub fn pocketed_balls(&self) -> SmallVec<[BallId; 4]> {
+        self.pocketed.iter().map(|pocketed| pocketed.ball).collect()
+    }
+
+    /// Adds everything that can still decide the verdict to `hash`.
+    pub fn hash(&self, hash: &mut StateHash) {
+        let (zone, ok) = self.placement.map_or((0, false), |(zone, ok)| (1 + zone as u64, ok));
+        let flags = [
+            ok,
+            self.push,
+            self.moving,
+            self.first_in_kitchen,
+            self.cue_pocketed,
+            self.cue_off,
+            self.crossed_head_first,
+            self.settled,
+        ];
+        hash.u64(zone);
+        flags.into_iter().for_each(|flag| hash.u64(flag.into()));
+        hash.u64(self.tips.into());
+        hash.u64(self.struck_by.map_or(0, |player| player.0.into()));
+        hash.f64(self.first_contact_s.unwrap_or(-1.0));
+        hash_list(hash, self.first_contacts.iter().map(|ball| ball.0.into()));
+        hash_list(hash, self.contacts.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
+        hash_list(hash, self.rails.iter().map(|(a, rail)| u64::from(a.0) << 16 | *rail as u64));
+        hash.u64(self.rails_after_contact.into());
+        hash_list(hash, self.pocketed.iter().map(|p| u64::from(p.ball.0) << 16 | p.pocket as u64));
+        self.pocketed.iter().for_each(|pocketed| hash.f64(pocketed.time_s));
+        hash_list(hash, self.off.iter().map(|ball| ball.0.into()));
+        hash_list(hash, self.touched.iter().map(|(a, by)| u64::from(a.0) << 16 | *by as u64));
+    }
+}
+
+/// Adds a list with its length, so that two lists in a row cannot be mistaken for others.
+pub(super) fn hash_list(hash: &mut StateHash, items: impl ExactSizeIterator<Item = u64>) {
+    hash.u64(items.len() as u64);
+    items.for_each(|item| hash.u64(item));
+}

@@ -1,0 +1,256 @@
+//! Sentences for verdicts and turns, in English and German.
+//!
+//! The rules themselves speak in codes; the words are in `config/text/`.
+
+use crate::events::{BallInHand, Group, Groups, ShotKind, Turn, TurnAfter, Verdict};
+use crate::ids::{BallId, PlayerId};
+use serde::Serialize;
+use serde_json::Value;
+
+/// A language.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// German, as the paper is.
+    German,
+}
+
+impl Language {
+    /// All languages.
+    pub const ALL: [Language; 2] = [Language::English, Language::German];
+
+    /// Its code.
+    pub fn id(self) -> &'static str {
+        match self {
+            Language::English => "en",
+            Language::German => "de",
+        }
+    }
+
+    fn file(self) -> &'static str {
+        match self {
+            Language::English => include_str!("../../config/text/en.toml"),
+            Language::German => include_str!("../../config/text/de.toml"),
+        }
+    }
+}
+
+/// The sentences of one language.
+#[derive(Debug, Clone)]
+pub struct Texts {
+    table: toml::Table,
+    names: [String; 2],
+}
+
+impl Texts {
+    /// The sentences of a language; the players are numbered.
+    pub fn new(language: Language) -> Self {
+        // The file is compiled in and a test reads it: it cannot fail on a user's machine.
+        let table = language.file().parse().unwrap_or_default();
+        let mut texts = Texts { table, names: Default::default() };
+        texts.names = ["1", "2"].map(|number| texts.fill("player", "name", "number", number));
+        texts
+    }
+
+    /// The same, with the players' own names.
+    #[must_use]
+    pub fn with_names(self, one: &str, two: &str) -> Self {
+        Texts { names: [one.into(), two.into()], ..self }
+    }
+
+    /// What a verdict says, for example "Foul: the cue ball was pocketed. Ball in hand for
+    /// Player 2."
+    pub fn verdict(&self, verdict: &Verdict) -> String {
+        let mut sentences = Vec::new();
+        if !verdict.fouls.is_empty() {
+            let reasons: Vec<_> =
+                verdict.fouls.iter().map(|foul| self.get("foul", &code(foul))).collect();
+            let reasons = reasons.join(&self.get("verdict", "and"));
+            sentences.push(self.fill("verdict", "foul", "reasons", &reasons));
+        }
+        if !verdict.spot.is_empty() {
+            sentences.push(self.fill("verdict", "spot", "balls", &list(&verdict.spot)));
+        }
+        sentences.push(match (verdict.turn, verdict.winner, verdict.next_player) {
+            (TurnAfter::End, Some(winner), _) => self.about("verdict", "winner", winner),
+            (TurnAfter::End, None, _) | (_, _, None) => self.get("verdict", "no_winner"),
+            (_, _, Some(next)) if verdict.ball_in_hand != BallInHand::None => {
+                self.about("in_hand", &code(&verdict.ball_in_hand), next)
+            }
+            (TurnAfter::Continue, _, Some(next)) => self.about("turn", "again", next),
+            (TurnAfter::Pass, _, Some(next)) => self.about("turn", "normal", next),
+        });
+        sentences.join(" ")
+    }
+
+    /// What a turn says, for example "Player 1 to break. Ball in hand behind the head string for
+    /// Player 1. The table is open."
+    pub fn turn(&self, turn: &Turn) -> String {
+        let mut sentences = vec![self.about("turn", &code(&turn.shot), turn.player)];
+        if turn.ball_in_hand != BallInHand::None {
+            sentences.push(self.about("in_hand", &code(&turn.ball_in_hand), turn.player));
+        }
+        let is_on_the_eight = turn.legal_first.as_slice() == [BallId::EIGHT];
+        let plays = match turn.groups {
+            None => None,
+            Some(_) if turn.shot == ShotKind::Break => None,
+            Some(Groups::Open) => Some("open"),
+            Some(Groups::Assigned { .. }) if is_on_the_eight => Some("eight"),
+            Some(groups) => groups.of(turn.player).map(|group| match group {
+                Group::Solids => "solids",
+                Group::Stripes => "stripes",
+            }),
+        };
+        sentences.extend(plays.map(|key| self.about("turn", key, turn.player)));
+        sentences.join(" ")
+    }
+
+    /// Why a verdict is as it is: one sentence per foul, then what became of turn and game.
+    pub fn why(&self, verdict: &Verdict) -> Vec<String> {
+        let mut keys: Vec<String> = verdict.fouls.iter().map(code).collect();
+        if keys.is_empty() {
+            keys.push("no_foul".into());
+        }
+        let end = match (verdict.turn, verdict.winner) {
+            (TurnAfter::End, Some(winner)) if Some(winner) == verdict.player => Some("win"),
+            (TurnAfter::End, Some(_)) => Some("loss"),
+            (TurnAfter::End, None) => Some("no_winner"),
+            (TurnAfter::Continue, _) => Some("continue"),
+            (TurnAfter::Pass, _) if verdict.legal => Some("pass"),
+            // The foul has already said why.
+            (TurnAfter::Pass, _) => None,
+        };
+        keys.extend(end.map(String::from));
+        keys.iter().map(|key| self.get("why", key)).collect()
+    }
+
+    /// A sentence about a player.
+    fn about(&self, section: &str, key: &str, player: PlayerId) -> String {
+        self.fill(section, key, "player", &self.names[player.index()])
+    }
+
+    fn fill(&self, section: &str, key: &str, place: &str, value: &str) -> String {
+        self.get(section, key).replace(&format!("{{{place}}}"), value)
+    }
+
+    /// The text at a key; the key itself where there is none, so that nothing is ever silent.
+    fn get(&self, section: &str, key: &str) -> String {
+        self.find(section, key).map_or_else(|| format!("{section}.{key}"), String::from)
+    }
+
+    fn find(&self, section: &str, key: &str) -> Option<&str> {
+        self.table.get("rules")?.get(section)?.get(key)?.as_str()
+    }
+}
+
+/// Why a verdict is as it is, in a language; see [`Texts::why`].
+pub fn explain(verdict: &Verdict, language: Language) -> Vec<String> {
+    Texts::new(language).why(verdict)
+}
+
+/// The code of a value in JSON, by which its sentence is found.
+fn code(value: &impl Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(Value::String(code)) => code,
+        _ => String::new(),
+    }
+}
+
+fn list(balls: &[BallId]) -> String {
+    balls.iter().map(BallId::to_string).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::events::Foul;
+    use smallvec::smallvec;
+
+    /// All fouls. The match keeps the list complete: a new foul does not compile without a place.
+    fn all_fouls() -> Vec<Foul> {
+        let next = |foul: Foul| match foul {
+            Foul::Scratch => Some(Foul::CueOff),
+            Foul::CueOff => Some(Foul::NoContact),
+            Foul::NoContact => Some(Foul::WrongFirst),
+            Foul::WrongFirst => Some(Foul::NoRail),
+            Foul::NoRail => Some(Foul::BallOff),
+            Foul::BallOff => Some(Foul::DoubleHit),
+            Foul::DoubleHit => Some(Foul::Push),
+            Foul::Push => Some(Foul::TouchedBall),
+            Foul::TouchedBall => Some(Foul::BadPlacement),
+            Foul::BadPlacement => Some(Foul::Kitchen),
+            Foul::Kitchen => Some(Foul::Moving),
+            Foul::Moving => Some(Foul::OutOfTurn),
+            Foul::OutOfTurn => Some(Foul::IllegalBreak),
+            Foul::IllegalBreak => Some(Foul::EightEarly),
+            Foul::EightEarly => Some(Foul::EightWrongPocket),
+            Foul::EightWrongPocket => Some(Foul::ThreeFouls),
+            Foul::ThreeFouls => Some(Foul::BallNotOnPocketed),
+            Foul::BallNotOnPocketed => None,
+        };
+        std::iter::successors(Some(Foul::Scratch), |foul| next(*foul)).collect()
+    }
+
+    #[test]
+    fn every_foul_has_its_sentences_in_both_languages() {
+        assert_eq!(all_fouls().len(), 18);
+        for language in Language::ALL {
+            let texts = Texts::new(language);
+            for foul in all_fouls() {
+                for section in ["foul", "why"] {
+                    let text = texts.find(section, &code(&foul));
+                    assert!(text.is_some_and(|text| text.len() > 10), "{language:?} {foul:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn both_languages_have_the_same_keys_and_the_same_braces() {
+        fn shape(value: &toml::Value, path: String, into: &mut Vec<String>) {
+            match value {
+                toml::Value::Table(table) => {
+                    table.iter().for_each(|(key, v)| shape(v, format!("{path}.{key}"), into));
+                }
+                toml::Value::String(text) => {
+                    let holes = text.split('{').skip(1).filter_map(|rest| rest.split('}').next());
+                    into.push(format!("{path} {:?}", holes.collect::<Vec<_>>()));
+                }
+                _ => into.push(format!("{path} is no text")),
+            }
+        }
+        let [english, german] = Language::ALL.map(|language| {
+            let table: toml::Table = language.file().parse().unwrap();
+            let mut keys = Vec::new();
+            shape(&table["rules"], String::new(), &mut keys);
+            keys
+        });
+        assert_eq!(english, german);
+    }
+
+    #[test]
+    fn a_scratch_reads_like_a_referee() {
+        let verdict = Verdict {
+            player: Some(PlayerId::ONE),
+            fouls: smallvec![Foul::Scratch],
+            turn: TurnAfter::Pass,
+            next_player: Some(PlayerId::TWO),
+            ball_in_hand: BallInHand::Anywhere,
+            ..Verdict::default()
+        };
+        assert_eq!(
+            Texts::new(Language::English).verdict(&verdict),
+            "Foul: the cue ball was pocketed. Ball in hand for Player 2."
+        );
+        assert_eq!(
+            Texts::new(Language::German).with_names("Ada", "Bo").verdict(&verdict),
+            "Foul: die Weiße wurde versenkt. Bo darf die Weiße frei legen."
+        );
+        assert_eq!(
+            explain(&verdict, Language::English),
+            ["The cue ball must stay on the table, but it went down in a pocket."]
+        );
+    }
+}
