@@ -5,7 +5,7 @@
 
 mod checks;
 mod obj;
-pub use obj::{ObjError, parse_obj};
+pub use obj::{OBJ_COUNT_MAX, ObjError, parse_obj};
 
 use crate::ids::{PocketId, Rail};
 use glam::DVec3;

@@ -19,6 +19,11 @@ mod pocket;
 
 mod physics_mesh;
 
+mod clearance;
+
+mod display;
+
+pub use display::{DisplayPart, Material};
 pub use parameters::{PocketParameters, TableParameters};
 
 use crate::ids::PocketId;

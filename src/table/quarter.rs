@@ -374,7 +374,7 @@ fn direction_of_edge(angle: f64) -> DVec2 {
 }
 
 /// The outline of the table at height `z`, moved inwards by `inset`, from y = 0 to x = 0.
-fn outline(table: &TableParameters, detail: &Detail, inset: f64, z: f64) -> Vec<DVec3> {
+pub(super) fn outline(table: &TableParameters, detail: &Detail, inset: f64, z: f64) -> Vec<DVec3> {
     let outer = DVec2::new(table.outer_x_m(), table.outer_y_m());
     let radius = table.outer_corner_radius_m;
     let bend = outer - DVec2::splat(radius);

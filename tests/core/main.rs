@@ -12,3 +12,6 @@ mod tick;
 mod tidy;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;
+
+/// Racks: order of the balls, gaps, spotting.
+mod rack;
