@@ -4,6 +4,7 @@
 //! untrusted: sizes are bounded, and whatever is wrong becomes a [`SceneError`] of one line that
 //! names file, line, key and value and says what is allowed.
 
+mod build;
 mod check;
 mod error;
 mod plan;

@@ -1,8 +1,8 @@
 //! Units and the logical clock.
 //!
 //! Everything is SI: metre, kilogram, second, radian. Plain `f64` with the unit in the name, except
-//! for the two kinds of time, which are easily mixed up: [`Seconds`] of the simulation and [`Tick`]s
-//! of the logical clock.
+//! for the two kinds of time, which are easily mixed up: [`Seconds`] of the simulation and
+//! [`Tick`]s of the logical clock.
 
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use super::reader::Section;
 use super::*;
-use crate::table::Bed;
+use crate::table::{Bed, TableParameters};
 
 /// Depth of an overlap that is still taken for touching [m]: rounding of written decimals.
 const TOUCHING_M: f64 = 1e-7;
@@ -91,9 +91,10 @@ fn ground(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// The bed of a table.
-fn bed(_preset: &str) -> Option<Bed> {
-    Some(Bed { length_m: 2.54, width_m: 1.27 })
+/// The bed of a shipped table, without building its mesh.
+fn bed(preset: &str) -> Option<Bed> {
+    let parameters = TableParameters::from_toml(crate::shipped::table(preset)?).ok()?;
+    Some(Bed { length_m: parameters.length_m, width_m: parameters.width_m })
 }
 
 /// No ball in another. Sweeps along x, so that many balls cost little.

@@ -38,9 +38,9 @@ impl Scene {
     }
 
     fn actors_of_plan(&self, plan: &mut Plan) {
-        plan.add(PlanKind::Actor, "conductor", "owns the logical clock; a tokio task");
-        plan.add(PlanKind::Actor, "event_manager", "orders and delivers events; a tokio task");
-        let place = if self.physics.thread { "a thread of its own" } else { "a tokio task" };
+        plan.add(PlanKind::Actor, "conductor", "owns the logical clock; a task");
+        plan.add(PlanKind::Actor, "event_manager", "orders and delivers events; a task");
+        let place = if self.physics.thread { "a thread of its own" } else { "a task" };
         plan.add(
             PlanKind::Actor,
             "physics",
@@ -48,14 +48,14 @@ impl Scene {
         );
         match &self.rules {
             Some(rules) => {
-                let detail = format!("referees {}; a tokio task", rules.game.name());
+                let detail = format!("referees {}; a task", rules.game.name());
                 plan.add(PlanKind::Actor, "rules", &detail);
             }
             None => plan.left_out("rules", "the scene has no [rules]"),
         }
         let computers = self.players.iter().filter(|player| player.kind == PlayerKind::Paper);
         for player in computers.clone() {
-            let detail = format!("plays as \"{}\"; a tokio task", player.name);
+            let detail = format!("plays as \"{}\"; a task", player.name);
             plan.add(PlanKind::Actor, "ai", &detail);
         }
         if computers.count() == 0 {
@@ -64,10 +64,10 @@ impl Scene {
         let stand_in = self.actors.as_ref().and_then(|actors| actors.input.as_ref());
         match (&self.input, stand_in) {
             (Some(_), Some(StandIn::Recorded(file))) => {
-                plan.add(PlanKind::Actor, "input", &format!("plays back {file}; a tokio task"));
+                plan.add(PlanKind::Actor, "input", &format!("plays back {file}; a task"));
             }
             (Some(input), None) => {
-                let detail = format!("mouse and keyboard, profile {}; a tokio task", input.profile);
+                let detail = format!("mouse and keyboard, profile {}; a task", input.profile);
                 plan.add(PlanKind::Actor, "input", &detail);
             }
             (None, _) => plan.left_out("input", "the scene has no [input]"),

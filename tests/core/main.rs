@@ -10,8 +10,7 @@ mod ai;
 mod table;
 /// What the clock leaves out and what it must not.
 mod tick;
-
-/// Racks: order of the balls, gaps, spotting.
-mod rack;
+/// The shape of the repository.
+mod tidy;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;

@@ -8,7 +8,7 @@ const HEAD: &str = "[scene]\nname = \"x\"\n[physics]\n";
 
 #[track_caller]
 fn whole(text: &str, expected: &str) {
-    let error = Scene::parse("s.toml", text).unwrap_err().to_string();
+    let error = Scene::parse("s.toml", text).expect_err("this scene is wrong").to_string();
     assert_eq!(error, format!("s.toml:{expected}"), "\n{text}");
 }
 

@@ -1,0 +1,172 @@
+//! The command line: one file per command, each with help that teaches.
+//!
+//! What a command answers goes to stdout and nothing else does; progress and logs go to stderr.
+//! The exit code is 0 for success, 1 if a check failed, 2 for wrong usage or input.
+
+mod play;
+
+mod simulate;
+
+mod match_;
+
+mod replay;
+
+mod render;
+
+mod scene;
+
+mod scenes;
+
+mod rules;
+
+use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+use hapticbillard_actors::error::Error;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::process::ExitCode;
+
+const ABOUT: &str = "Billiards with real physics: a game, and a toolbox around the same core";
+
+const EXAMPLES: &str = "\
+Examples:
+  hapticbillard                          play eight-ball against the computer
+  hapticbillard scenes                   list the shipped scenes
+  hapticbillard simulate --scene break_shot --json
+  hapticbillard match --scene eight_ball_headless --games 10
+
+Every command has --help with an example. With --json a command prints JSON lines on stdout, the
+last of which is {\"summary\":{..}}.
+Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
+
+#[derive(Parser)]
+#[command(name = "hapticbillard", version, about = ABOUT, after_help = EXAMPLES)]
+#[command(args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+
+    #[command(flatten)]
+    play: play::PlayArgs,
+
+    /// Says more on stderr; twice: even more. RUST_LOG chooses by module.
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    verbose: u8,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Play(play::PlayArgs),
+    Simulate(simulate::SimulateArgs),
+    Match(match_::MatchArgs),
+    Replay(replay::ReplayArgs),
+    Render(render::RenderArgs),
+    Scene(scene::SceneArgs),
+    Scenes(scenes::ScenesArgs),
+    Rules(rules::RulesArgs),
+}
+
+/// Which runtime plays a game; both give the same output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Driver {
+    /// All cores in one thread, in virtual time: the reference.
+    Lockstep,
+    /// One actor per core.
+    #[default]
+    Actors,
+}
+
+/// How a command ended, if it could do its work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Everything is as it should be.
+    Success,
+    /// It did its work, and found that something is not as it should be.
+    #[allow(dead_code, reason = "returned by the commands that check")]
+    CheckFailed,
+}
+
+/// Reads the command line and does what it says.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let level = match cli.verbose {
+        0 => "warn",
+        1 => "info",
+        2 => "debug",
+        _ => "trace",
+    };
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(level))
+        .format_timestamp_millis()
+        .init();
+
+    let mut out = BufWriter::new(io::stdout().lock());
+    let result = match cli.command.unwrap_or(Command::Play(cli.play)) {
+        Command::Play(args) => play::run(&args, &mut out),
+        Command::Simulate(args) => simulate::run(&args, &mut out),
+        Command::Match(args) => match_::run(&args, &mut out),
+        Command::Replay(args) => replay::run(&args, &mut out),
+        Command::Render(args) => render::run(&args, &mut out),
+        Command::Scene(args) => scene::run(&args, &mut out),
+        Command::Scenes(args) => scenes::run(&args, &mut out),
+        Command::Rules(args) => rules::run(&args, &mut out),
+    };
+    match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
+        Ok(Status::Success) => ExitCode::SUCCESS,
+        Ok(Status::CheckFailed) => ExitCode::from(1),
+        // Who closes the pipe, as `head` does, has read enough.
+        Err(Error::Output(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// One line of JSON.
+pub fn json_line(out: &mut dyn Write, value: &impl serde::Serialize) -> Result<(), Error> {
+    serde_json::to_writer(&mut *out, value).map_err(io::Error::from)?;
+    Ok(out.write_all(b"\n")?)
+}
+
+/// A progress bar for `length` pieces of work; invisible unless stderr is a terminal.
+pub fn progress(length: u64, what: &'static str) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr());
+    let template = "{msg} {wide_bar} {pos}/{len}, {eta} left";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.with_message(what)
+}
+
+/// A number of seconds or a factor that is not negative.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err(String::from("expected a number that is not negative")),
+    }
+}
+
+/// A number above zero.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match not_negative(text) {
+        Ok(number) if number > 0.0 => Ok(number),
+        _ => Err(String::from("expected a number above 0")),
+    }
+}
+
+/// A size in pixels, such as `1280x720`.
+pub fn size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once('x').map(|(w, h)| (w.parse::<u32>(), h.parse::<u32>()));
+    match sides {
+        Some((Ok(width), Ok(height)))
+            if (64..=16_384).contains(&width) && (64..=16_384).contains(&height) =>
+        {
+            Ok((width, height))
+        }
+        _ => Err(String::from("expected WIDTHxHEIGHT in pixels, such as 1280x720, 64 to 16384")),
+    }
+}
+
+/// Until the runtime plays games, the commands that need it say so.
+fn no_runtime(command: &str) -> Error {
+    Error::input(command, "this build has no game runtime", "see `hapticbillard simulate --help`")
+}

@@ -1,0 +1,66 @@
+//! `hapticbillard scene`: what a scene will start.
+
+use super::{Status, json_line};
+use clap::Args;
+use hapticbillard::scene::PlanKind;
+use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::load_scene;
+use serde_json::json;
+use std::io::Write;
+
+const EXAMPLE: &str = "\
+What a scene file does not name does not exist: this command shows what is left.
+
+Examples:
+  hapticbillard scene eight_ball
+  hapticbillard scene my_table.toml --json";
+
+/// Shows what a scene will start, which physics it has, and what was left out and why.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct SceneArgs {
+    /// A shipped scene (see `scenes`) or a scene file.
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+
+    /// Prints JSON lines: one per line of the plan, then the summary.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Prints the plan.
+pub fn run(args: &SceneArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    let loaded = load_scene(&args.scene)?;
+    let scene = &loaded.scene;
+    let plan = scene.plan();
+    let lines = |kind| plan.iter().filter(move |line| line.kind == kind);
+    if args.json {
+        plan.iter().try_for_each(|line| json_line(out, line))?;
+        let summary = json!({ "summary": {
+            "file": scene.file,
+            "name": scene.about.name,
+            "seed": scene.about.seed,
+            "balls": scene.ball_count(),
+            "meshes": scene.meshes_needed(),
+            "actors": lines(PlanKind::Actor).count(),
+            "terms": lines(PlanKind::Term).count(),
+            "left_out": lines(PlanKind::LeftOut).count(),
+        }});
+        json_line(out, &summary)?;
+        return Ok(Status::Success);
+    }
+    writeln!(out, "{}: {}", scene.about.name, scene.about.description)?;
+    for (kind, title) in [
+        (PlanKind::Actor, "starts"),
+        (PlanKind::Term, "computes"),
+        (PlanKind::LeftOut, "leaves out"),
+    ] {
+        if lines(kind).count() > 0 {
+            writeln!(out, "\n{title}")?;
+        }
+        for line in lines(kind) {
+            writeln!(out, "  {:<20} {}", line.name, line.detail)?;
+        }
+    }
+    Ok(Status::Success)
+}

@@ -1,0 +1,126 @@
+//! `hapticbillard simulate`: the physics of a scene, and nothing else.
+
+use super::{Status, no_runtime, positive};
+use clap::{Args, ValueEnum};
+use hapticbillard::physics::{Integrator, SolverKind};
+use hapticbillard::scene::Scene;
+use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::load_scene;
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "\
+With --json: a line {\"t\",\"balls\":[..]} per sample, a line {\"t\",\"fact\",..} per fact, then the
+summary with run time, work, energy and a hash of the final state. Facts can be piped into `rules`.
+
+A line of a --batch file is one shot from the scene's start, all keys optional:
+  {\"speed_m_s\":4,\"azimuth_deg\":10,\"elevation_deg\":5,\"side\":0.1,\"height\":-0.2}
+The results come in the order of the file.
+
+Examples:
+  hapticbillard simulate --scene break_shot
+  hapticbillard simulate --scene one_ball --until 2 --sample 0.1 --json
+  hapticbillard simulate --scene break_shot --step-ms 0.1 --integrator rk4 --bench 20
+  hapticbillard simulate --scene free_play --batch shots.jsonl --json > results.jsonl";
+
+/// Runs the physics of a scene, without rules and players.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct SimulateArgs {
+    /// A shipped scene (see `scenes`) or a scene file.
+    #[arg(long, value_name = "SCENE")]
+    pub scene: String,
+
+    /// Fixes everything random, in place of the scene's seed.
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+
+    /// In place of the scene's solver.
+    #[arg(long, value_enum)]
+    pub solver: Option<SolverName>,
+
+    /// In place of the scene's step, in milliseconds.
+    #[arg(long, value_name = "H", value_parser = step_ms)]
+    pub step_ms: Option<f64>,
+
+    /// In place of the scene's integrator.
+    #[arg(long, value_enum)]
+    pub integrator: Option<IntegratorName>,
+
+    /// Stops after so many simulated seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "until_rest")]
+    pub until: Option<f64>,
+
+    /// Stops when everything is at rest, after at most 600 s; the default.
+    #[arg(long)]
+    pub until_rest: bool,
+
+    /// Prints where the balls are, every so many seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub sample: Option<f64>,
+
+    /// Runs the same shot so many times and prints run times.
+    #[arg(long, value_name = "N", conflicts_with_all = ["batch", "sample"],
+          value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub bench: Option<u32>,
+
+    /// Strikes the cue ball as each line of this file says, on all cores.
+    #[arg(long, value_name = "FILE", conflicts_with = "sample")]
+    pub batch: Option<PathBuf>,
+
+    /// Prints JSON lines.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Solvers by their names in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SolverName {
+    /// The paper's method: fixed steps, contacts found by overlap.
+    FixedStep,
+}
+
+/// Integrators by their names in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorName {
+    /// Semi-implicit Euler, the paper's choice.
+    EulerCromer,
+    /// Velocity Verlet.
+    Verlet,
+    /// The classical Runge-Kutta method of fourth order.
+    Rk4,
+}
+
+fn step_ms(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(step) if (0.001..=50.0).contains(&step) => Ok(step),
+        _ => Err(String::from("expected milliseconds from 0.001 to 50")),
+    }
+}
+
+/// Puts what the command line says in place of what the scene says.
+fn override_scene(args: &SimulateArgs, scene: &mut Scene) {
+    if let Some(seed) = args.seed {
+        scene.about.seed = seed;
+    }
+    if let Some(SolverName::FixedStep) = args.solver {
+        scene.physics.solver = SolverKind::FixedStep;
+    }
+    if let Some(step_ms) = args.step_ms {
+        scene.physics.step_ms = step_ms;
+    }
+    if let Some(integrator) = args.integrator {
+        scene.physics.integrator = match integrator {
+            IntegratorName::EulerCromer => Integrator::EulerCromer,
+            IntegratorName::Verlet => Integrator::Verlet,
+            IntegratorName::Rk4 => Integrator::Rk4,
+        };
+    }
+}
+
+/// Simulates.
+pub fn run(args: &SimulateArgs, _out: &mut dyn Write) -> Result<Status, Error> {
+    let mut loaded = load_scene(&args.scene)?;
+    override_scene(args, &mut loaded.scene);
+    Err(no_runtime("simulate"))
+}

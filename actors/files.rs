@@ -1,0 +1,119 @@
+//! Reading and writing: the one place that opens files.
+//!
+//! Everything read is untrusted: its size is bounded before it is in memory. Everything written
+//! appears whole under its name or not at all.
+
+use crate::error::Error;
+use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
+use hapticbillard::shipped;
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::path::{Component, Path, PathBuf};
+
+/// Largest mesh file that is read [bytes].
+pub const MESH_BYTES_MAX: u64 = 64 << 20;
+
+/// The text of the file at `path`, if it has at most `limit` bytes.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
+    let failed = |reason| Error::Read { path: path.to_path_buf(), reason };
+    let file = File::open(path).map_err(failed)?;
+    // A folder cannot be read, and a device may never end.
+    if !file.metadata().map_err(failed)?.is_file() {
+        return Err(Error::NoFile { path: path.to_path_buf() });
+    }
+    let mut bytes = Vec::new();
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit {
+        return Err(Error::TooLarge { path: path.to_path_buf(), limit });
+    }
+    String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
+}
+
+/// Writes a file whole: first under another name, then renamed.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
+    let name = path
+        .file_name()
+        .ok_or_else(|| failed(std::io::Error::other("the path names no file")))?
+        .to_string_lossy();
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).map_err(failed)?;
+    let draft = folder.join(format!(".{name}.{}.part", std::process::id()));
+    let written = File::create(&draft)
+        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+        .and_then(|()| fs::rename(&draft, path));
+    written.map_err(|reason| {
+        // Best effort: the draft is of no use, and the first error is the one to report.
+        let _ = fs::remove_file(&draft);
+        failed(reason)
+    })
+}
+
+/// A scene with its text and where its meshes are.
+#[derive(Debug, Clone)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// The text it was read from.
+    pub text: String,
+    /// The folder that its meshes are seen from; none for a shipped scene.
+    pub folder: Option<PathBuf>,
+}
+
+/// The scene of this name: a shipped one, or a file.
+pub fn load_scene(name: &str) -> Result<LoadedScene, Error> {
+    if let Some(text) = shipped::scene(name) {
+        let scene = Scene::parse(&format!("{name}.toml"), text)?;
+        return Ok(LoadedScene { scene, text: text.to_string(), folder: None });
+    }
+    let path = Path::new(name);
+    // A bare word that is no file was meant to be a shipped scene.
+    if !path.exists() && path.extension().is_none() {
+        let shipped = shipped::SCENES.iter().map(|(name, _)| *name).collect();
+        return Err(Error::NoScene { name: name.to_string(), shipped });
+    }
+    let text = read_text(path, FILE_BYTES_MAX as u64)?;
+    let scene = Scene::parse(name, &text)?;
+    Ok(LoadedScene { scene, text, folder: path.parent().map(Path::to_path_buf) })
+}
+
+impl LoadedScene {
+    /// The text of a mesh file that the scene names. Scenes come from anywhere, so a mesh must lie
+    /// in the scene's own folder or below.
+    pub fn read_mesh(&self, file: &str) -> Result<String, String> {
+        let Some(folder) = &self.folder else {
+            return Err(String::from("a shipped scene has no mesh files"));
+        };
+        let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        if !Path::new(file).components().all(inside) {
+            return Err(String::from("a mesh must lie in the scene's folder or below it"));
+        }
+        read_text(&folder.join(file), MESH_BYTES_MAX).map_err(|error| error.to_string())
+    }
+}
+
+/// The folder for what the game keeps between runs: recordings and logs.
+pub fn data_folder() -> Result<PathBuf, Error> {
+    directories::ProjectDirs::from("", "", "hapticbillard")
+        .map(|folders| folders.data_dir().to_path_buf())
+        .ok_or(Error::NoHome)
+}
+
+/// The folder for the recordings of games that were played.
+pub fn recordings_folder() -> Result<PathBuf, Error> {
+    Ok(data_folder()?.join("recordings"))
+}
+
+/// Deletes all but the `keep` newest files that end in `.jsonl` in `folder`; names sort by age.
+pub fn keep_newest(folder: &Path, keep: usize) -> Result<(), Error> {
+    let failed = |reason| Error::Write { path: folder.to_path_buf(), reason };
+    let mut names: Vec<PathBuf> = fs::read_dir(folder)
+        .map_err(failed)?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "jsonl"))
+        .collect();
+    names.sort();
+    let old = names.len().saturating_sub(keep);
+    names[..old].iter().try_for_each(|path| fs::remove_file(path).map_err(failed))
+}
