@@ -6,6 +6,12 @@ mod event_manager;
 mod scene;
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+// Helpers of tests may fail loudly, as tests do.
+#![allow(clippy::unwrap_used)]
+
+/// Geometry for tests, independent of the solvers' own.
+mod geometry;
+
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.
