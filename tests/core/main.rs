@@ -2,6 +2,8 @@
 
 /// Order, delay and interest of the event manager.
 mod event_manager;
+/// The referee, the rule console and the scenarios of the paper's eight-ball.
+mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
@@ -10,8 +12,6 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
-/// The referee, the rule console and the scenarios of the paper's eight-ball.
-mod rules;
 
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
