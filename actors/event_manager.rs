@@ -5,7 +5,7 @@
 //! theirs by `try_send` on a bounded channel: a sink that lags loses its own mail, which is
 //! counted in [`Sink::dropped`], and delays nobody.
 
-use crate::participant::{Answer, Mail, Seat};
+use crate::participant::{Ask, Mail, Seat};
 use hapticbillard::event_manager::{EventManager as Core, QueueFull};
 use hapticbillard::events::{Event, Fact, Source, Topics};
 use hapticbillard::hash::Digest;
@@ -28,7 +28,7 @@ pub struct Sink {
 }
 
 enum Subscriber {
-    Seat(Source, ReplyRecipient<Mail, Answer>),
+    Seat(Source, Ask),
     Sink(Sink),
 }
 
@@ -51,7 +51,7 @@ impl EventManager {
         for seat in seats {
             let id = core.register(seat.source, seat.topics);
             first.push((id, seat.first));
-            subscribers.push(Subscriber::Seat(seat.source, seat.recipient));
+            subscribers.push(Subscriber::Seat(seat.source, seat.ask));
         }
         for sink in sinks {
             core.subscribe(sink.topics);
@@ -131,13 +131,14 @@ impl EventManager {
         self.core.publish_now(Source::Physics, tick, facts.into_iter().map(Event::Fact))?;
 
         let mut fact = false;
-        let mut asked = Vec::new();
+        let mut asked: SmallVec<[_; 8]> = SmallVec::new();
         for delivery in self.core.seal(tick) {
             fact |= delivery.events.iter().any(|stamped| matches!(stamped.event, Event::Fact(_)));
             let mail = Delivered { tick, events: delivery.events, table: table.clone() };
             match &self.subscribers[delivery.to.0] {
-                Subscriber::Seat(source, recipient) => {
-                    asked.push(((delivery.to, *source), recipient.ask(Mail(mail)).send()));
+                Subscriber::Seat(who, ask) => {
+                    let answer = ask(Mail(mail)).map_err(|error| gone(*who, tick, error))?;
+                    asked.push((delivery.to, *who, answer));
                 }
                 Subscriber::Sink(sink) => {
                     if let Err(flume::TrySendError::Full(_)) = sink.mail.try_send(mail) {
@@ -146,16 +147,15 @@ impl EventManager {
                 }
             }
         }
-        let (ids, replies): (Vec<_>, Vec<_>) = asked.into_iter().unzip();
-        let answers = futures_util::future::join_all(replies).await;
-        for ((id, who), answer) in ids.into_iter().zip(answers) {
-            let answer = answer.map_err(|error| DeliveryError::Gone {
-                who,
-                tick,
-                reason: error.to_string(),
-            })?;
+        // All were asked; the answers are taken in order of registration, whoever is first.
+        for (id, who, answer) in asked {
+            let answer = answer.await.map_err(|error| gone(who, tick, error))?;
             self.core.answer(id, tick, answer.outcome, answer.digest)?;
         }
         Ok(Delivery { sealed: self.core.sealed(), digests: self.core.digests(), fact })
     }
+}
+
+fn gone(who: Source, tick: Tick, error: impl std::fmt::Display) -> DeliveryError {
+    DeliveryError::Gone { who, tick, reason: error.to_string() }
 }

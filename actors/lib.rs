@@ -1,7 +1,13 @@
-//! The game: one actor per core, and what they share with the operating system.
+//! HapticBillard's actors: one kameo shell per core of the package `hapticbillard`, and what they
+//! share with the operating system.
 //!
-//! The cores are in the package `hapticbillard`; nothing here decides anything about billiards.
+//! A shell moves messages in and out of its core and decides nothing about billiards. The runtime
+//! is the only place that says who runs where.
 
 pub mod error;
 
 pub mod files;
+
+pub mod participant;
+
+pub mod event_manager;

@@ -7,7 +7,9 @@ use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
+use kameo::error::SendError;
 use kameo::prelude::*;
+use kameo::request::PendingReply;
 
 /// The mail of one tick.
 #[derive(Debug, Clone)]
@@ -22,6 +24,12 @@ pub struct Answer {
     pub digest: Digest,
 }
 
+/// Puts mail into a participant's mailbox at once and returns the answer to come. When the mailbox
+/// is full it refuses: a participant is asked once a tick and answers before the next, so this
+/// means that somebody else writes to it.
+pub type Ask =
+    Box<dyn Fn(Mail) -> Result<PendingReply<Mail, Answer>, SendError> + Send + Sync + 'static>;
+
 /// A participant as the event manager knows it.
 pub struct Seat {
     /// Its name on what it publishes.
@@ -30,8 +38,13 @@ pub struct Seat {
     pub topics: Topics,
     /// What it said at the start.
     pub first: Answer,
-    /// Where its mail goes.
-    pub recipient: ReplyRecipient<Mail, Answer>,
+    /// Where its mail goes. It keeps the actor alive.
+    pub ask: Ask,
+}
+
+/// The door to an actor that answers [`Mail`].
+pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
+    Box::new(move |mail| actor.ask(mail).try_enqueue())
 }
 
 /// Hands `mail` to a core.

@@ -10,7 +10,7 @@ use crate::event_manager::{EventManager, Sink};
 use crate::input::{Input, StandIn};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
-use crate::participant::{self, Answer, Mail, Seat};
+use crate::participant::{self, Answer, Mail, Seat, door};
 use crate::physics::Physics;
 use crate::recorder::Recorder;
 use crate::rules::Rules;
@@ -128,8 +128,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             let (source, topics) = (core.source(), core.topics());
             let first = participant::start(&mut core, &table);
             let actor = spawn(Input::new(core, raw, view));
-            let recipient = actor.clone().reply_recipient::<Mail>();
-            seats.push(Seat { source, topics, first, recipient });
+            seats.push(Seat { source, topics, first, ask: door(actor.clone()) });
             Some(actor.reply_recipient())
         }
     };
@@ -196,5 +195,5 @@ where
 {
     let (source, topics) = (core.source(), core.topics());
     let first = participant::start(&mut core, table);
-    Seat { source, topics, first, recipient: spawn(actor(core)).reply_recipient() }
+    Seat { source, topics, first, ask: door(spawn(actor(core))) }
 }

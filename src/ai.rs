@@ -1,1 +1,29 @@
-//! Computer players.
+//! Computer players: they see what anybody sees and act by the commands anybody has.
+//!
+//! [`Player`] takes part in the game like a human's input does. The paper's player (section 5.4)
+//! sees a [`TableView2d`] and nothing else; it cannot simulate, so it cannot look ahead.
+
+mod view;
+pub use view::{SeenBall, TableView2d};
+
+mod geometry;
+pub use geometry::{is_blocked, signed_angle};
+
+mod speed;
+pub use speed::{BALL_PER_TIP_SPEED, launch_speed, pot_tip_speed};
+
+mod plan;
+pub use plan::{
+    CUT_LIMIT_RAD, Candidate, Goal, Line, LineEnd, Plan, PlanKind, candidate, cost, plan_shot,
+};
+
+mod fallback;
+
+mod place;
+pub use place::{placements, zone_holds};
+
+mod stroke;
+pub use stroke::{Stroke, approach, resting_pose, withdrawal};
+
+mod player;
+pub use player::{Clearance, Level, Player, PlayerSettings};

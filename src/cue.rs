@@ -3,6 +3,10 @@
 //! A hand sends pieces of one tick, a computer its whole stroke. The tip is a sphere that follows
 //! the path exactly until contact; the truth of the contact is physics'.
 
+mod aim;
+
+pub use aim::{Aim, OFFSET_LIMIT, elevation_over_balls};
+
 use crate::units::Seconds;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

@@ -6,6 +6,8 @@ mod event_manager;
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
+/// The computer player: planning, cue motion, turn states.
+mod ai;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.
@@ -15,3 +17,5 @@ mod tidy;
 
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+/// The referee, the rule console and the scenarios of the paper's eight-ball.
+mod rules;

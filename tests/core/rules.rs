@@ -112,7 +112,7 @@ fn ball(id: u16, place: BallPlace) -> BallState {
         velocity: Default::default(),
         angular_velocity: Default::default(),
         orientation: Default::default(),
-        motion: Motion::Resting,
+        motion: Motion::Rest,
         place,
     }
 }

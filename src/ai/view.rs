@@ -1,0 +1,65 @@
+//! What the paper's player sees: positions on the bed, from above.
+
+use crate::ids::BallId;
+use crate::physics::Snapshot;
+use crate::table::{Bed, Pocket};
+use glam::DVec2;
+
+/// A ball as seen from above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeenBall {
+    /// Which.
+    pub id: BallId,
+    /// Where [m].
+    pub position: DVec2,
+}
+
+/// The table as seen from above. It holds no velocities and leads to no simulation: whoever plans
+/// with it can look at the table, not into the future (paper, section 5.4).
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableView2d {
+    /// The cue ball, if it lies on the table [m].
+    pub cue_ball: Option<DVec2>,
+    /// The object balls on the table, in ascending order of id.
+    pub balls: Vec<SeenBall>,
+    /// Radius of every ball [m].
+    pub ball_radius_m: f64,
+    /// The playing area.
+    pub bed: Bed,
+    /// The pockets.
+    pub pockets: Vec<Pocket>,
+}
+
+impl TableView2d {
+    /// Looks at the table from above.
+    pub fn of(table: &Snapshot, bed: &Bed, pockets: &[Pocket], ball_radius_m: f64) -> Self {
+        TableView2d {
+            cue_ball: table
+                .on_table()
+                .find(|ball| ball.id == BallId::CUE)
+                .map(|ball| ball.position.truncate()),
+            balls: table
+                .on_table()
+                .filter(|ball| ball.id != BallId::CUE)
+                .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
+                .collect(),
+            ball_radius_m,
+            bed: *bed,
+            pockets: pockets.to_vec(),
+        }
+    }
+
+    /// Where an object ball lies [m].
+    pub fn position(&self, id: BallId) -> Option<DVec2> {
+        self.balls.iter().find(|ball| ball.id == id).map(|ball| ball.position)
+    }
+
+    /// Whether the cue ball could lie at `position` without touching anything.
+    pub fn has_room(&self, position: DVec2) -> bool {
+        /// Distance that a hand leaves between balls [m].
+        const GAP_M: f64 = 0.001;
+        let apart = 2.0 * self.ball_radius_m + GAP_M;
+        self.bed.holds(position, self.ball_radius_m + GAP_M)
+            && self.balls.iter().all(|ball| ball.position.distance(position) >= apart)
+    }
+}
