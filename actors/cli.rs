@@ -81,7 +81,6 @@ pub enum Status {
     /// Everything is as it should be.
     Success,
     /// It did its work, and found that something is not as it should be.
-    #[allow(dead_code, reason = "returned by the commands that check")]
     CheckFailed,
 }
 

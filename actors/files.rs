@@ -29,6 +29,11 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
     String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
 }
 
+/// Opens a file that is read line by line, however long it is.
+pub fn open_lines(path: &Path) -> Result<File, Error> {
+    File::open(path).map_err(|reason| Error::Read { path: path.to_path_buf(), reason })
+}
+
 /// Writes a file whole: first under another name, then renamed.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let failed = |reason| Error::Write { path: path.to_path_buf(), reason };

@@ -29,6 +29,8 @@ pub const FILE_BYTES_MAX: usize = 4 << 20;
 pub const BALLS_MAX: usize = 4096;
 /// Most meshes in a scene; as many planes, and as many boxes.
 pub const MESHES_MAX: usize = 64;
+/// Depth of an overlap that is still taken for touching [m]: rounding of written decimals.
+const TOUCHING_M: f64 = 1e-7;
 
 /// What exists in a game. Sections that the file does not have are `None` or empty.
 #[derive(Debug, Clone, PartialEq)]

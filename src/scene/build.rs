@@ -1,11 +1,12 @@
 //! Makes the table and the balls that a scene names.
 
-use super::{BoxSection, Scene, SceneError};
+use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
+use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::ids::PlayerId;
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::scene::PlayerKind;
+use crate::rack::Rack;
 use crate::table::Table;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 impl Scene {
     /// The ground that the scene names. `load` hands over the text of each mesh file that
@@ -41,6 +42,53 @@ impl Scene {
         Ok(table)
     }
 
+    /// The balls on `table` when the scene begins, in ascending order of id: the rack, and over it
+    /// each [[ball]].
+    pub fn build_balls(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, SceneError> {
+        let mut balls = Vec::new();
+        if let Some(section) = &self.balls {
+            let seed = self.about.seed;
+            let rack = match section.rack {
+                RackKind::EightBall => Rack::eight_ball(seed),
+                RackKind::NineBall => Rack::nine_ball(seed),
+            };
+            balls = rack.place(table).map_err(|error| {
+                let (found, fix) = (section.rack.name(), "write [table] and preset = \"pool-9ft\"");
+                self.error(section.line, "balls.rack", found, &error.to_string(), fix)
+            })?;
+            balls.retain(|(ball, _)| self.ball.iter().all(|section| section.id != ball.id));
+        }
+        let racked = balls.len();
+        balls.extend(self.ball.iter().map(BallSection::placed));
+        for (i, section) in self.ball.iter().enumerate().filter(|(_, one)| one.flags.collide) {
+            let wrong = |problem: &str, fix: &str| {
+                let found = format!("{:?}", section.position_m.to_array());
+                let key = format!("ball[{i}].position_m");
+                SceneError::new(&self.file, section.line, &key, Some(&found), problem, fix)
+            };
+            let centre = section.position_m;
+            let under = |(ball, state): &&(Ball, BallState)| {
+                let apart = ball.radius_m + section.radius_m - TOUCHING_M;
+                state.position.distance(centre) < apart
+            };
+            if let Some((ball, _)) = balls[..racked].iter().find(under) {
+                let problem = format!("overlaps ball {} of the rack", ball.id);
+                return Err(wrong(&problem, "move it, or give it the number of that ball"));
+            }
+            let pierced = |face: &usize| {
+                let reach = section.radius_m - TOUCHING_M;
+                distance_to_triangle(centre, table.mesh.corners(*face), reach) < reach
+            };
+            // The parser has held the ball against table, planes and boxes already.
+            if !self.meshes.is_empty() && (0..table.mesh.faces.len()).any(|face| pierced(&face)) {
+                let problem = "in a mesh: at least its radius away from every face";
+                return Err(wrong(problem, "move the ball, or set offset_m of the mesh"));
+            }
+        }
+        balls.sort_by_key(|(ball, _)| ball.id);
+        Ok(balls)
+    }
+
     /// The players whose commands come from the input: at a mouse, or from a recording.
     pub fn human_players(&self) -> Vec<PlayerId> {
         let ids = [PlayerId::ONE, PlayerId::TWO];
@@ -51,6 +99,24 @@ impl Scene {
     /// An error about what stands on `line`.
     fn error(&self, line: usize, key: &str, found: &str, allowed: &str, fix: &str) -> SceneError {
         SceneError::new(&self.file, line, key, Some(&format!("{found:?}")), allowed, fix)
+    }
+}
+
+impl BallSection {
+    /// The ball and its state when the scene begins.
+    fn placed(&self) -> (Ball, BallState) {
+        let still = self.velocity_m_s == DVec3::ZERO && self.angular_velocity_rad_s == DVec3::ZERO;
+        let state = BallState {
+            id: self.id,
+            position: self.position_m,
+            velocity: self.velocity_m_s,
+            angular_velocity: self.angular_velocity_rad_s,
+            orientation: DQuat::IDENTITY,
+            // Physics finds out at its first step what carries a ball that moves.
+            motion: if still { Motion::Rest } else { Motion::Sliding },
+            place: BallPlace::OnTable,
+        };
+        (self.ball(), state)
     }
 }
 
@@ -69,6 +135,32 @@ fn box_mesh(section: &BoxSection) -> Mesh {
         vertices: (0..8).map(corner).collect(),
         faces: SIDES.into_iter().flat_map(halves).map(face).collect(),
     }
+}
+
+/// Distance from `point` to a triangle [m]; at least `reach` if its box alone is farther away.
+fn distance_to_triangle(point: DVec3, [a, b, c]: [DVec3; 3], reach: f64) -> f64 {
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    let to_box = (point.clamp(low, high) - point).length();
+    if to_box >= reach {
+        return to_box;
+    }
+    // Over the face itself if the foot of the perpendicular lies inside all three sides.
+    let normal = (b - a).cross(c - a);
+    let inside = [(a, b), (b, c), (c, a)]
+        .into_iter()
+        .all(|(from, to)| (to - from).cross(point - from).dot(normal) >= 0.0);
+    if inside && normal != DVec3::ZERO {
+        return (point - a).dot(normal).abs() / normal.length();
+    }
+    // Else the nearest of the three sides.
+    let to_side = |(from, to): (DVec3, DVec3)| {
+        let side = to - from;
+        let along = (point - from).dot(side) / side.length_squared();
+        // A side without length is its corner.
+        let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { 0.0 };
+        point.distance(from + along * side)
+    };
+    to_side((a, b)).min(to_side((b, c))).min(to_side((c, a)))
 }
 
 #[cfg(test)]
@@ -90,5 +182,18 @@ mod tests {
         // count negative.
         let expected = 0.2 * 0.4 * 0.6 / 12.0;
         assert!(volumes.iter().all(|v| (v - expected).abs() < 1e-12), "{volumes:?}");
+    }
+
+    #[test]
+    fn distances_to_a_triangle_are_those_to_face_side_and_corner() {
+        let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let distance = |x, y, z| distance_to_triangle(DVec3::new(x, y, z), triangle, f64::MAX);
+        assert_eq!(distance(0.2, 0.2, 0.5), 0.5);
+        assert_eq!(distance(0.2, 0.2, -0.5), 0.5);
+        assert_eq!(distance(0.5, -2.0, 0.0), 2.0);
+        assert!((distance(1.0, 1.0, 0.0) - 0.5f64.sqrt()).abs() < 1e-15);
+        assert_eq!(distance(4.0, 0.0, 4.0), 5.0);
+        let point = [DVec3::X; 3];
+        assert_eq!(distance_to_triangle(DVec3::ZERO, point, 9.0), 1.0);
     }
 }

@@ -4,8 +4,6 @@ use super::reader::Section;
 use super::*;
 use crate::table::{Bed, TableParameters};
 
-/// Depth of an overlap that is still taken for touching [m]: rounding of written decimals.
-const TOUCHING_M: f64 = 1e-7;
 /// Height below which a ball beside the bed would be inside the rails [m].
 const RAIL_TOP_M: f64 = 0.05;
 

@@ -2,6 +2,8 @@
 
 /// Order, delay and interest of the event manager.
 mod event_manager;
+/// The referee, the rule console and the scenarios of the paper's eight-ball.
+mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
 /// The computer player: planning, cue motion, turn states.
@@ -18,5 +20,8 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+
+/// Racks: order of the balls, gaps, spotting.
+mod rack;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;

@@ -128,8 +128,7 @@ fn the_first_turn_is_the_break_with_what_lies_on_the_table() {
         ],
         ..Snapshot::default()
     };
-    let mut referee =
-        Referee::new(GameKind::PaperEightBall).first_player(PlayerId::TWO);
+    let mut referee = Referee::new(GameKind::PaperEightBall).first_player(PlayerId::TWO);
     let outcome = referee.start(&table);
     assert_eq!(outcome.publish.len(), 1);
     assert_eq!(outcome.publish[0].delay_ticks, 0);
@@ -420,8 +419,5 @@ fn turns_are_announced_in_words() {
     );
     assert_eq!(texts.verdict(&verdicts(&said)[0]), "Player 1 continues.");
     assert_eq!(texts.turn(&turn(&said[1])), "Player 1 to shoot. The table is open.");
-    assert_eq!(
-        texts.why(&verdicts(&said)[0]),
-        ["No rule was broken.", "The shot keeps the turn."]
-    );
+    assert_eq!(texts.why(&verdicts(&said)[0]), ["No rule was broken.", "The shot keeps the turn."]);
 }
