@@ -1,5 +1,9 @@
 //! Names of things: balls, pockets, rails, players.
 
+mod game;
+
+pub use game::{GameKind, UnknownGame};
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::fmt;
 

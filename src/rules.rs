@@ -36,7 +36,8 @@ pub use scenario::{
     run_scenario,
 };
 pub use shot::{Pocketed, Shot, watch};
-pub use state::{GameKind, State, UnknownGame};
+pub use crate::ids::{GameKind, UnknownGame};
+pub use state::State;
 pub use text::{Language, Texts, explain};
 
 use crate::events::{Call, Topic, Topics, Verdict};

@@ -5,7 +5,8 @@
 
 use super::phase::{Phase, Signal};
 use super::shot::{Shot, watch};
-use super::state::{GameKind, State};
+use super::state::State;
+use crate::ids::GameKind;
 use super::{judge_of, legal_first, topics};
 use crate::events::{
     BallInHand, Call, Command, Event, Fact, FactKind, Source, Topics, Turn, TurnAfter, Verdict,

@@ -3,7 +3,8 @@
 use super::fact_json::read_fact;
 use super::judge;
 use super::shot::{Shot, watch};
-use super::state::{GameKind, State};
+use super::state::State;
+use crate::ids::GameKind;
 use crate::events::{Call, Verdict};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -2,7 +2,7 @@
 
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
-use crate::ids::PlayerId;
+use super::PlayerId;
 use crate::mesh::{Face, Mesh, parse_obj};
 use crate::rack::Rack;
 use crate::table::Table;
