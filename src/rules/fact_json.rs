@@ -61,11 +61,13 @@ fn wrong_key(object: &Map<String, Value>, problem: &str) -> Option<String> {
     }
     let mut keys: Vec<&String> = object.keys().collect();
     keys.sort_by_key(|key| ["e", "t"].iter().position(|late| key == late).map_or(0, |i| i + 1));
-    keys.into_iter().find(|key| {
-        let mut without = object.clone();
-        without.remove(*key);
-        parse(&without).err().as_deref() != Some(problem)
-    }).cloned()
+    keys.into_iter()
+        .find(|key| {
+            let mut without = object.clone();
+            without.remove(*key);
+            parse(&without).err().as_deref() != Some(problem)
+        })
+        .cloned()
 }
 
 #[cfg(test)]

@@ -222,8 +222,8 @@ impl Participant for Referee {
     fn hash(&self, hash: &mut StateHash) {
         hash.u64(self.game as u64);
         hash.u64(self.phase as u64);
-        self.state.hash(hash);
-        self.shot.hash(hash);
+        self.state.hash_into(hash);
+        self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
     }
 }

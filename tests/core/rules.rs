@@ -52,7 +52,7 @@ fn the_referee_agrees_with_the_scenarios() {
             let fact: Fact = serde_json::from_value(event.clone().into()).unwrap();
             said.extend(referee.handle(&fact));
         }
-        assert_eq!(verdicts(&said), [expected.clone()], "{}", scenario.id);
+        assert_eq!(verdicts(&said), std::slice::from_ref(&expected), "{}", scenario.id);
         let is_over = expected.turn == TurnAfter::End;
         assert_eq!(referee.phase() == Phase::Over, is_over, "{}", scenario.id);
         let next = said.last().and_then(|event| match event {
@@ -64,7 +64,7 @@ fn the_referee_agrees_with_the_scenarios() {
 }
 
 fn fact(text: &str) -> Fact {
-    serde_json::from_str(text).unwrap()
+    serde_json::from_str(text).expect("a test writes facts as rule files do")
 }
 
 /// One shot: a stroke at `t`, what `between` lists, and rest.
@@ -112,7 +112,7 @@ fn ball(id: u16, place: BallPlace) -> BallState {
         velocity: Default::default(),
         angular_velocity: Default::default(),
         orientation: Default::default(),
-        motion: Motion::Resting,
+        motion: Motion::Rest,
         place,
     }
 }
@@ -128,8 +128,7 @@ fn the_first_turn_is_the_break_with_what_lies_on_the_table() {
         ],
         ..Snapshot::default()
     };
-    let mut referee =
-        Referee::new(GameKind::PaperEightBall).first_player(PlayerId::TWO);
+    let mut referee = Referee::new(GameKind::PaperEightBall).first_player(PlayerId::TWO);
     let outcome = referee.start(&table);
     assert_eq!(outcome.publish.len(), 1);
     assert_eq!(outcome.publish[0].delay_ticks, 0);
@@ -420,8 +419,5 @@ fn turns_are_announced_in_words() {
     );
     assert_eq!(texts.verdict(&verdicts(&said)[0]), "Player 1 continues.");
     assert_eq!(texts.turn(&turn(&said[1])), "Player 1 to shoot. The table is open.");
-    assert_eq!(
-        texts.why(&verdicts(&said)[0]),
-        ["No rule was broken.", "The shot keeps the turn."]
-    );
+    assert_eq!(texts.why(&verdicts(&said)[0]), ["No rule was broken.", "The shot keeps the turn."]);
 }

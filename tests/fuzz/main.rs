@@ -1,1 +1,4 @@
 //! Seeded fuzz tests.
+
+/// The referee under random facts.
+mod rules;
