@@ -67,7 +67,7 @@ impl Cast {
         let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
         let simulation = Simulation::from_parts(table.clone(), balls, &scene.physics)?;
         let referee = scene.rules.as_ref().map(|rules| {
-            Referee::new(rules.game).first_player(rules.first_player.unwrap_or(PlayerId::ONE))
+            Referee::new(rules.game).first_player(rules.first_player)
         });
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {

@@ -28,6 +28,7 @@ mod console;
 
 mod text;
 
+pub use crate::ids::{GameKind, UnknownGame};
 pub use console::{Console, ConsoleAnswer, ConsoleError};
 pub use phase::{Phase, Signal, diagram};
 pub use referee::{Judge, Referee};
@@ -36,7 +37,6 @@ pub use scenario::{
     run_scenario,
 };
 pub use shot::{Pocketed, Shot, watch};
-pub use crate::ids::{GameKind, UnknownGame};
 pub use state::State;
 pub use text::{Language, Texts, explain};
 

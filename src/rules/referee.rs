@@ -6,13 +6,13 @@
 use super::phase::{Phase, Signal};
 use super::shot::{Shot, watch};
 use super::state::State;
-use crate::ids::GameKind;
 use super::{judge_of, legal_first, topics};
 use crate::events::{
     BallInHand, Call, Command, Event, Fact, FactKind, Source, Topics, Turn, TurnAfter, Verdict,
     Zone,
 };
 use crate::hash::StateHash;
+use crate::ids::GameKind;
 use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
 use crate::tick::{Delivered, Outcome, Participant};
@@ -223,8 +223,8 @@ impl Participant for Referee {
     fn hash(&self, hash: &mut StateHash) {
         hash.u64(self.game as u64);
         hash.u64(self.phase as u64);
-        self.state.hash(hash);
-        self.shot.hash(hash);
+        self.state.hash_into(hash);
+        self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
     }
 }

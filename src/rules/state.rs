@@ -138,7 +138,7 @@ impl State {
     }
 
     /// Adds everything to `hash`.
-    pub fn hash(&self, hash: &mut StateHash) {
+    pub fn hash_into(&self, hash: &mut StateHash) {
         hash.u64(self.shot as u64);
         hash.u64(self.player.0.into());
         hash.u64(match self.groups {
