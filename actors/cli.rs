@@ -75,6 +75,15 @@ pub enum Driver {
     Actors,
 }
 
+impl From<Driver> for hapticbillard_actors::game::Driver {
+    fn from(driver: Driver) -> Self {
+        match driver {
+            Driver::Lockstep => Self::Lockstep,
+            Driver::Actors => Self::Actors,
+        }
+    }
+}
+
 /// How a command ended, if it could do its work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {

@@ -10,6 +10,7 @@ use crate::input::{Entered, FrameOf};
 use crate::physics::{Advance, Coast, Moved, Physics};
 use crate::recorder::{Record, Recorder};
 use hapticbillard::hash::Digest;
+use hapticbillard::lockstep::LockstepError;
 use hapticbillard::physics::{PhysicsError, Snapshot};
 use hapticbillard::replay::{Divergence, Line, Recording, TickHash};
 use hapticbillard::tick::{Advanced, Clock, End, Finished, Inflow, Next};
@@ -45,6 +46,16 @@ pub enum RunError {
     /// The runtime itself cannot start.
     #[error("the actor runtime cannot start: {0}")]
     Start(String),
+}
+
+impl From<LockstepError> for RunError {
+    fn from(error: LockstepError) -> Self {
+        match error {
+            LockstepError::Physics(error) => RunError::Physics(error),
+            LockstepError::Full(error) => RunError::Delivery(error.into()),
+            LockstepError::Diverged(divergence) => RunError::Diverged(divergence),
+        }
+    }
 }
 
 /// Who is below the conductor.

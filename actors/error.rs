@@ -1,5 +1,8 @@
 //! What can go wrong between a core and the operating system; each in one line.
 
+use crate::conductor::RunError;
+use hapticbillard::cast::CastError;
+use hapticbillard::replay::RecordingError;
 use hapticbillard::scene::SceneError;
 use std::path::PathBuf;
 
@@ -53,6 +56,20 @@ pub enum Error {
     /// A scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The cores of a scene do not fit together.
+    #[error(transparent)]
+    Cast(#[from] CastError),
+    /// A recording is wrong.
+    #[error("{}: {error}", path.display())]
+    Recording {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        error: RecordingError,
+    },
+    /// A game could not go on.
+    #[error(transparent)]
+    Run(#[from] RunError),
     /// The operating system names no folder for data.
     #[error("there is no home folder to keep data in; set HOME")]
     NoHome,

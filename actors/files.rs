@@ -55,6 +55,48 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     })
 }
 
+/// A file that grows by whole lines, each on disk before the next is accepted.
+///
+/// It is named `….part` until it is finished: what a crash leaves behind is there to be read, and
+/// is never taken for a whole one.
+#[derive(Debug)]
+pub struct LineWriter {
+    file: File,
+    draft: PathBuf,
+    path: PathBuf,
+}
+
+impl LineWriter {
+    /// Creates the file, and its folder.
+    pub fn create(path: PathBuf) -> Result<Self, Error> {
+        let failed = |reason| Error::Write { path: path.clone(), reason };
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder).map_err(failed)?;
+        }
+        let mut draft = path.clone().into_os_string();
+        draft.push(".part");
+        let draft = PathBuf::from(draft);
+        let file = File::create(&draft).map_err(failed)?;
+        Ok(LineWriter { file, draft, path })
+    }
+
+    /// Appends a line; the operating system has it when this returns.
+    pub fn line(&mut self, text: &str) -> Result<(), Error> {
+        let failed = |reason| Error::Write { path: self.draft.clone(), reason };
+        let mut bytes = Vec::with_capacity(text.len() + 1);
+        bytes.extend_from_slice(text.as_bytes());
+        bytes.push(b'\n');
+        self.file.write_all(&bytes).map_err(failed)
+    }
+
+    /// Gives the file its name.
+    pub fn finish(self) -> Result<(), Error> {
+        let failed = |reason| Error::Write { path: self.path.clone(), reason };
+        self.file.sync_all().map_err(failed)?;
+        fs::rename(&self.draft, &self.path).map_err(failed)
+    }
+}
+
 /// A scene with its text and where its meshes are.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {

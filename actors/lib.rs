@@ -1,7 +1,7 @@
 //! HapticBillard's actors: one kameo shell per core of the package `hapticbillard`, and what they
 //! share with the operating system.
 //!
-//! A shell moves messages in and out of its core and decides nothing about billiards. The runtime
+//! A shell moves messages in and out of its core and decides nothing about billiards. [`runtime`]
 //! is the only place that says who runs where.
 
 pub mod error;
@@ -11,3 +11,23 @@ pub mod files;
 pub mod participant;
 
 pub mod event_manager;
+
+pub mod physics;
+
+pub mod rules;
+
+pub mod ai;
+
+pub mod input;
+
+pub mod observer;
+
+pub mod recorder;
+
+pub mod conductor;
+
+pub mod pacer;
+
+pub mod runtime;
+
+pub mod game;

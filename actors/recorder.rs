@@ -3,7 +3,8 @@
 //! A frame is on disk before the game uses it. The file is named `….part` until the game has
 //! ended, and can be replayed as far as it goes even then.
 
-use crate::files::{FileError, LineWriter};
+use crate::error::Error;
+use crate::files::LineWriter;
 use hapticbillard::replay::{Header, Line};
 use kameo::prelude::*;
 use std::path::PathBuf;
@@ -18,8 +19,8 @@ impl Recorder {
     /// Creates the file and writes its header.
     ///
     /// # Errors
-    /// [`FileError`] if it cannot be created or written.
-    pub fn create(path: PathBuf, header: Header) -> Result<Self, FileError> {
+    /// [`Error`] if it cannot be created or written.
+    pub fn create(path: PathBuf, header: Header) -> Result<Self, Error> {
         let mut file = LineWriter::create(path)?;
         file.line(&Line::Recording(header).to_json())?;
         Ok(Recorder { file: Some(file) })
@@ -28,8 +29,8 @@ impl Recorder {
     /// Writes a line; the last one closes the file.
     ///
     /// # Errors
-    /// [`FileError`] if the disk refuses.
-    pub fn write(&mut self, line: &Line) -> Result<(), FileError> {
+    /// [`Error`] if the disk refuses.
+    pub fn write(&mut self, line: &Line) -> Result<(), Error> {
         let Some(file) = &mut self.file else {
             return Ok(());
         };
@@ -48,7 +49,7 @@ pub struct Record(pub Line);
 
 /// Whether it is on disk.
 #[derive(Debug, Reply)]
-pub struct Written(pub Result<(), FileError>);
+pub struct Written(pub Result<(), Error>);
 
 impl Message<Record> for Recorder {
     type Reply = Written;

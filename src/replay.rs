@@ -12,6 +12,7 @@ use crate::events::Source;
 use crate::hash::{Digest, StateHash};
 use crate::ids::BallId;
 use crate::physics::Snapshot;
+use crate::scene::Overrides;
 use crate::tick::{End, Frame, FrameSource, Inflow};
 use crate::units::Tick;
 use serde::{Deserialize, Serialize};
@@ -38,11 +39,9 @@ pub struct Header {
     /// Mesh files that the scene names, by the name it gives them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: BTreeMap<String, String>,
-    /// The seed of this game.
-    pub seed: u64,
-    /// What the command line changed: who plays, noise.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub players: Vec<String>,
+    /// What was changed about the scene.
+    #[serde(default)]
+    pub overrides: Overrides,
 }
 
 /// State hashes after a tick, one per subsystem.
@@ -345,8 +344,7 @@ mod tests {
             scene_name: "one".into(),
             scene: String::new(),
             files: BTreeMap::new(),
-            seed: 7,
-            players: Vec::new(),
+            overrides: Overrides::default(),
         })
     }
 

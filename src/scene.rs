@@ -7,6 +7,7 @@
 mod build;
 mod check;
 mod error;
+mod overrides;
 mod plan;
 mod reader;
 mod sections;
@@ -14,6 +15,7 @@ mod sections;
 mod tests;
 
 pub use error::SceneError;
+pub use overrides::Overrides;
 pub use plan::{PlanKind, PlanLine};
 
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
@@ -22,6 +24,7 @@ use crate::mesh::Surface;
 use crate::physics::PhysicsSettings;
 use crate::table::Plane;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 /// Largest scene file that is read [bytes].
 pub const FILE_BYTES_MAX: usize = 4 << 20;
@@ -220,7 +223,8 @@ pub struct PlayerSection {
 }
 
 /// Who decides for a player.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PlayerKind {
     /// Somebody at the input.
     Human,

@@ -1,10 +1,24 @@
 //! `hapticbillard match`: games without a window.
 
-use super::{Driver, Status, no_runtime, not_negative};
+use super::{Driver, Status, json_line, not_negative, progress};
 use clap::Args;
+use hapticbillard::cast::seed_of;
+use hapticbillard::hash::Digest;
+use hapticbillard::ids::PlayerId;
+use hapticbillard::replay::TickHash;
+use hapticbillard::scene::{Overrides, PlayerKind};
+use hapticbillard::tally::Tally;
+use hapticbillard::tick::Finished;
 use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::{Headless, Stage, play_headless};
+use hapticbillard_actors::pacer::describe;
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Instant;
 
 const EXAMPLE: &str = "\
 Prints a line per game and a total: who won, shots, fouls, balls pocketed, racks cleared in one
@@ -58,7 +72,212 @@ pub struct MatchArgs {
     pub timing: bool,
 }
 
+/// What a line of JSON says about one game.
+#[derive(Serialize)]
+struct GameLine<'a> {
+    game: u32,
+    players: &'a [String],
+    #[serde(flatten)]
+    tally: &'a Tally,
+    ticks: u64,
+    state_hash: Option<Digest>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wall_ms: Option<f64>,
+}
+
+/// The totals of a match. Arrays hold player 1, then player 2.
+#[derive(Default, Serialize)]
+struct Summary {
+    games: u32,
+    wins: [u32; 2],
+    /// Wilson's 95 % interval of each player's chance to win a decided game.
+    interval95: [[f64; 2]; 2],
+    draws: u32,
+    stalled: u32,
+    shots: [u32; 2],
+    fouls: [u32; 2],
+    pots: [u32; 2],
+    run_outs: u32,
+}
+
 /// Plays the games.
-pub fn run(_args: &MatchArgs, _out: &mut dyn Write) -> Result<Status, Error> {
-    Err(no_runtime("match"))
+pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    let loaded = load_scene(&args.scene)?;
+    let stage = Stage::new(&loaded, &args.scene)?;
+    let scene = &stage.scene;
+    let what = format!("--scene {}", args.scene);
+    if scene.rules.is_none() || scene.players.len() != 2 {
+        let fix = "choose a scene with [rules] and two [[player]], such as eight_ball_headless";
+        return Err(Error::input(what, "a match needs rules and two players", fix));
+    }
+    let kinds = match args.players.len() {
+        0 => scene.players.iter().map(|player| player.kind).collect(),
+        _ => args.players.iter().map(|_| PlayerKind::Paper).collect::<Vec<_>>(),
+    };
+    if args.players.len() == 1 || args.players.len() > 2 {
+        let problem = format!("{} players given", args.players.len());
+        return Err(Error::input("--players", problem, "give two, such as paper,paper"));
+    }
+    if kinds.iter().any(|kind| *kind != PlayerKind::Paper) {
+        let fix = "add --players paper,paper, or play it in a window with `play`";
+        return Err(Error::input(what, "a person plays in this scene", fix));
+    }
+
+    let seed = args.seed.unwrap_or(scene.about.seed);
+    let bar = progress(u64::from(args.games), "games");
+    let names: Vec<String> = scene.players.iter().map(|player| player.name.clone()).collect();
+    let play = |game: u32| -> Result<(Finished, Tally, f64), Error> {
+        let overrides = Overrides {
+            seed: Some(seed_of(seed, u64::from(game))),
+            // They break in turn.
+            first_player: Some(PlayerId(1 + (game % 2) as u8)),
+            players: kinds.clone(),
+            noise: args.noise,
+        };
+        let record = args.record.as_ref().map(|dir| dir.join(format!("game_{:04}.jsonl", game + 1)));
+        let how = Headless { driver: args.driver.into(), record, ..Headless::default() };
+        let start = Instant::now();
+        let (finished, tally) = play_headless(&stage.with(overrides), how)?;
+        Ok((finished, tally, start.elapsed().as_secs_f64() * 1e3))
+    };
+    let mut summary = Summary { games: args.games, ..Summary::default() };
+    in_order(args.games, play, |game, result| {
+        let (finished, tally, wall_ms) = result?;
+        count(&mut summary, &tally);
+        bar.inc(1);
+        let state_hash = finished.hash.as_ref().map(TickHash::all);
+        if args.json {
+            let wall_ms = args.timing.then_some(wall_ms);
+            let line = GameLine {
+                game: game + 1,
+                players: &names,
+                tally: &tally,
+                ticks: finished.tick.0,
+                state_hash,
+                wall_ms,
+            };
+            json_line(out, &line)?;
+        } else {
+            let winner = match tally.winner {
+                Some(player) => format!("{} wins", names[player.index()]),
+                None if tally.over => "draw".into(),
+                None => format!("no end: {}", describe(finished.end)),
+            };
+            let [[a, b], [c, d], [e, f]] = [tally.shots, tally.fouls, tally.pots];
+            let clear = if tally.run_out { ", table run" } else { "" };
+            let took = if args.timing { format!(", {wall_ms:.0} ms") } else { String::new() };
+            writeln!(
+                out,
+                "game {:>3}: {winner}; shots {a}-{b}, fouls {c}-{d}, balls {e}-{f}{clear}{took}",
+                game + 1
+            )?;
+        }
+        Ok(out.flush()?)
+    })?;
+    bar.finish_and_clear();
+    summary.interval95 = interval95(summary.wins);
+    if args.json {
+        json_line(out, &serde_json::json!({ "summary": summary }))?;
+    } else {
+        let [a, b] = summary.wins;
+        let [[low, high], _] = summary.interval95;
+        writeln!(
+            out,
+            "{} {a} : {b} {} in {} games, {} drawn; {} wins {:.0} to {:.0} % (95 %)",
+            names[0], names[1], args.games, summary.draws, names[0], low * 100.0, high * 100.0
+        )?;
+    }
+    Ok(if summary.stalled == 0 { Status::Success } else { Status::CheckFailed })
+}
+
+fn count(summary: &mut Summary, tally: &Tally) {
+    match tally.winner {
+        Some(player) => summary.wins[player.index()] += 1,
+        None if tally.over => summary.draws += 1,
+        None => summary.stalled += 1,
+    }
+    for seat in 0..2 {
+        summary.shots[seat] += tally.shots[seat];
+        summary.fouls[seat] += tally.fouls[seat];
+        summary.pots[seat] += tally.pots[seat];
+    }
+    summary.run_outs += u32::from(tally.run_out);
+}
+
+/// Wilson's score interval at 95 % for each player (Wilson 1927).
+fn interval95(wins: [u32; 2]) -> [[f64; 2]; 2] {
+    const Z: f64 = 1.959_963_984_540_054;
+    let n = f64::from(wins[0] + wins[1]);
+    wins.map(|wins| {
+        if n == 0.0 {
+            return [0.0, 1.0];
+        }
+        let p = f64::from(wins) / n;
+        let middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
+        let half = Z / (1.0 + Z * Z / n) * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+        [(middle - half).max(0.0), (middle + half).min(1.0)]
+    })
+}
+
+/// Runs `play` for 0 to `games` on all cores and hands the results over in order, each as soon as
+/// those before it are done.
+fn in_order<T: Send>(
+    games: u32,
+    play: impl Fn(u32) -> T + Sync,
+    mut take: impl FnMut(u32, T) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let workers = std::thread::available_parallelism().map_or(1, |n| n.get()).min(games as usize);
+    let next = AtomicU32::new(0);
+    // No worker runs far ahead of the one that is waited for.
+    let (sender, receiver) = flume::bounded(2 * workers.max(1));
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            let (sender, next, play) = (sender.clone(), &next, &play);
+            scope.spawn(move || {
+                loop {
+                    let game = next.fetch_add(1, Ordering::Relaxed);
+                    // Whoever took the results has given up when nobody listens.
+                    if games <= game || sender.send((game, play(game))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let mut waiting = BTreeMap::new();
+        let mut expected = 0;
+        while let Ok((game, result)) = receiver.recv() {
+            waiting.insert(game, result);
+            while let Some(result) = waiting.remove(&expected) {
+                take(expected, result)?;
+                expected += 1;
+            }
+        }
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_order_whoever_is_first() {
+        let mut seen = Vec::new();
+        let slow = |game: u32| (0..(50 - game) * 2000).fold(game, |a, b| a.wrapping_mul(31) ^ b);
+        in_order(50, |game| (slow(game), game).1, |game, result| {
+            assert_eq!(game, result);
+            seen.push(game);
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(seen, (0..50).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn wilson_interval_of_eight_in_ten() {
+        // Brown, Cai and DasGupta 2001 give 0.490 to 0.943.
+        let [[low, high], _] = interval95([8, 2]);
+        assert!((low - 0.490).abs() < 1e-3 && (high - 0.943).abs() < 1e-3, "{low} {high}");
+    }
 }

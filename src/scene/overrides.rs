@@ -1,0 +1,37 @@
+//! What a command line may change about a scene; a recording keeps it beside the scene's text.
+
+use super::{PlayerKind, Scene};
+use crate::ids::PlayerId;
+use serde::{Deserialize, Serialize};
+
+/// Changes to a scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Overrides {
+    /// Fixes everything random.
+    pub seed: Option<u64>,
+    /// Who breaks.
+    pub first_player: Option<PlayerId>,
+    /// Kinds of the players, by the names that scenes use; empty: the scene's own.
+    pub players: Vec<PlayerKind>,
+    /// Noise of all computers' strokes.
+    pub noise: Option<f64>,
+}
+
+impl Overrides {
+    /// Changes `scene`.
+    pub fn apply(&self, scene: &mut Scene) {
+        if let Some(seed) = self.seed {
+            scene.about.seed = seed;
+        }
+        if let (Some(first), Some(rules)) = (self.first_player, &mut scene.rules) {
+            rules.first_player = first;
+        }
+        for (section, kind) in scene.players.iter_mut().zip(&self.players) {
+            section.kind = *kind;
+        }
+        if let Some(noise) = self.noise {
+            scene.players.iter_mut().for_each(|section| section.noise = noise);
+        }
+    }
+}
