@@ -83,7 +83,8 @@ struct Last {
 impl Conductor {
     /// A conductor before the first tick.
     pub fn new(clock: Clock, below: Below) -> Self {
-        Conductor { clock, below, next_frame: None, primed: false, last: Last::default(), verified: 0 }
+        let last = Last::default();
+        Conductor { clock, below, next_frame: None, primed: false, last, verified: 0 }
     }
 }
 

@@ -4,14 +4,13 @@
 //! not name is not made.
 
 use crate::ai::{Player, PlayerSettings};
-use crate::events::Source;
-use crate::ids::PlayerId;
+use crate::ball::POOL_RADIUS_M;
+use crate::ids::{BallId, PlayerId};
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
-use crate::rules::{Referee, UnknownGame};
+use crate::rules::Referee;
 use crate::scene::{PlayerKind, Scene, SceneError};
 use crate::table::Table;
-use crate::tick::Participant;
 use std::sync::Arc;
 
 /// The cores of one game.
@@ -39,9 +38,6 @@ pub enum CastError {
     /// The simulation refuses its start.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
-    /// The rules are not known.
-    #[error(transparent)]
-    Game(#[from] UnknownGame),
     /// Computer players need a billiard table.
     #[error("{player} is a computer player and needs a table with pockets; add [table]")]
     NoTable {
@@ -61,22 +57,18 @@ pub fn seed_of(seed: u64, part: u64) -> u64 {
 }
 
 impl Cast {
-    /// Makes the cores that `scene` names. `load` hands over the text of the mesh files it names.
+    /// Makes the cores that `scene` names, on a table that [`Scene::build_table`] made.
     ///
     /// # Errors
     /// [`CastError`] if the parts of the scene do not fit together.
-    pub fn new(
-        scene: &Scene,
-        load: &mut dyn FnMut(&str) -> Result<String, String>,
-    ) -> Result<Self, CastError> {
-        let seed = scene.about.seed;
-        let table = Arc::new(scene.build_table(load)?);
+    pub fn new(scene: &Scene, table: Arc<Table>) -> Result<Self, CastError> {
         let balls = scene.build_balls(&table)?;
+        let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
+        let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
         let simulation = Simulation::from_parts(table.clone(), balls, &scene.physics)?;
-        let referee = match &scene.rules {
-            Some(rules) => Some(Referee::new(rules.game.parse()?, simulation.ball_ids())),
-            None => None,
-        };
+        let referee = scene.rules.as_ref().map(|rules| {
+            Referee::new(rules.game).first_player(rules.first_player)
+        });
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
             if section.kind != PlayerKind::Paper {
@@ -85,25 +77,19 @@ impl Cast {
             let Some(bed) = table.bed else {
                 return Err(CastError::NoTable { player: section.name.clone() });
             };
-            let settings = PlayerSettings::for_scene(
-                section,
-                scene.physics.profile,
-                seed_of(seed, u64::from(id.0)),
-            );
-            players.push(Player::new(id, settings, bed, table.clone()));
+            let seed = seed_of(scene.about.seed, u64::from(id.0));
+            let mut settings = PlayerSettings::paper(seed, scene.physics.profile);
+            settings.noise = section.noise;
+            settings.throw_factor = section.throw_factor.unwrap_or(settings.throw_factor);
+            let rails = table.clone();
+            let clearance = Arc::new(move |at, azimuth| rails.clearance_elevation(at, azimuth));
+            let pockets = table.pockets.clone();
+            players.push(Player::new(id, settings, bed, pockets, radius_m, clearance));
         }
         let stands_in = scene.actors.as_ref().is_some_and(|actors| actors.input.is_some());
-        let human = (scene.input.is_some() && !stands_in).then(|| {
-            let humans = scene.human_players();
-            Human::new(humans, table.clone())
-        });
+        let human = (scene.input.is_some() && !stands_in)
+            .then(|| Human::new(scene.human_players(), table.clone()));
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })
-    }
-
-    /// The participants' names, in the order in which they are registered.
-    pub fn sources(&self) -> Vec<Source> {
-        let referee = self.referee.iter().map(|_| Source::Rules);
-        referee.chain(self.players.iter().map(Participant::source)).collect()
     }
 }

@@ -1,6 +1,11 @@
 //! Names of things: balls, pockets, rails, players.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+mod game;
+
+pub use game::{GameKind, UnknownGame};
+
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
 /// A ball. 0 is the cue ball, 1 to 15 are the object balls of pool; a scene may have more.
@@ -30,22 +35,35 @@ impl Serialize for BallId {
 
 impl<'de> Deserialize<'de> for BallId {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        // Scene files may write the plain number.
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Form {
-            Text(String),
-            Number(u16),
+        // A visitor and no untagged enum: that would hide that a field is missing at all.
+        struct BallVisitor;
+
+        impl Visitor<'_> for BallVisitor {
+            type Value = BallId;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a ball: a whole number from 0 to 65535")
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<BallId, E> {
+                text.parse().map(BallId).map_err(|_| no_ball(&text))
+            }
+
+            // Scene files may write the plain number.
+            fn visit_u64<E: Error>(self, number: u64) -> Result<BallId, E> {
+                u16::try_from(number).map(BallId).map_err(|_| no_ball(&number))
+            }
+
+            fn visit_i64<E: Error>(self, number: i64) -> Result<BallId, E> {
+                u16::try_from(number).map(BallId).map_err(|_| no_ball(&number))
+            }
         }
-        let message = |text: &str| {
-            D::Error::custom(format!(
-                "'{text}' is no ball: a whole number from 0 to 65535 expected"
-            ))
-        };
-        match Form::deserialize(deserializer).map_err(|_| message("value"))? {
-            Form::Text(text) => text.parse().map(BallId).map_err(|_| message(&text)),
-            Form::Number(number) => Ok(BallId(number)),
+
+        fn no_ball<E: Error>(what: &dyn fmt::Display) -> E {
+            E::custom(format!("'{what}' is no ball: a whole number from 0 to 65535 expected"))
         }
+
+        deserializer.deserialize_any(BallVisitor)
     }
 }
 

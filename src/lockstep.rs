@@ -5,7 +5,7 @@ use crate::cast::Cast;
 use crate::event_manager::{EventManager, QueueFull, SubscriberId};
 use crate::events::{Event, Source};
 use crate::hash::{Digest, StateHash};
-use crate::physics::{PhysicsError, Snapshot};
+use crate::physics::{PhysicsError, Simulation, Snapshot, Solver};
 use crate::replay::{Divergence, Line, Recording, TickHash};
 use crate::tick::{
     self, Advanced, Clock, Delivered, Finished, FrameSource, Inflow, Next, Pace, Participant,
@@ -61,7 +61,7 @@ pub enum LockstepError {
 pub struct Lockstep<'a> {
     clock: Clock,
     events: EventManager,
-    simulation: crate::physics::Simulation,
+    simulation: Simulation,
     participants: Vec<(SubscriberId, Box<dyn Participant>)>,
     setup: Setup<'a>,
     next_frame: Option<Tick>,
@@ -107,7 +107,7 @@ impl<'a> Lockstep<'a> {
         let next_frame = setup.input.as_mut().and_then(|input| input.inflow(Tick(0)).next);
         let clock = Clock::new(setup.pace, setup.limit, events.sealed());
         let mut hash = StateHash::new();
-        simulation.hash_into(&mut hash);
+        simulation.hash(&mut hash);
         let last = Advanced {
             tick: Tick(0),
             facts: Vec::new(),

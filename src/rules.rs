@@ -28,6 +28,7 @@ mod console;
 
 mod text;
 
+pub use crate::ids::{GameKind, UnknownGame};
 pub use console::{Console, ConsoleAnswer, ConsoleError};
 pub use phase::{Phase, Signal, diagram};
 pub use referee::{Judge, Referee};
@@ -36,7 +37,7 @@ pub use scenario::{
     run_scenario,
 };
 pub use shot::{Pocketed, Shot, watch};
-pub use state::{GameKind, State, UnknownGame};
+pub use state::State;
 pub use text::{Language, Texts, explain};
 
 use crate::events::{Call, Topic, Topics, Verdict};

@@ -17,7 +17,7 @@ pub use error::SceneError;
 pub use plan::{PlanKind, PlanLine};
 
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
-use crate::ids::BallId;
+use crate::ids::{BallId, GameKind, PlayerId};
 use crate::mesh::Surface;
 use crate::physics::PhysicsSettings;
 use crate::table::Plane;
@@ -199,37 +199,9 @@ pub struct CueSection;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RulesSection {
     /// The game.
-    pub game: Game,
-}
-
-/// A game that this build can referee.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Game {
-    /// The reduced eight-ball of the paper.
-    PaperEightBall,
-    /// Anybody may do anything; who shoots alternates.
-    FreePlay,
-}
-
-impl Game {
-    /// Every game, in a fixed order.
-    pub const ALL: [Game; 2] = [Game::PaperEightBall, Game::FreePlay];
-
-    /// Its name in a scene.
-    pub fn name(self) -> &'static str {
-        match self {
-            Game::PaperEightBall => "paper-eight-ball",
-            Game::FreePlay => "free-play",
-        }
-    }
-
-    /// Its short id, as JSON and the command line write it.
-    pub fn id(self) -> &'static str {
-        match self {
-            Game::PaperEightBall => "paper8",
-            Game::FreePlay => "free_play",
-        }
-    }
+    pub game: GameKind,
+    /// Who breaks.
+    pub first_player: PlayerId,
 }
 
 /// `[[player]]`: who plays.

@@ -9,8 +9,8 @@
 //!     └──────────────────── next tick, or a jump to the next one that matters ◄───────────┘
 //! ```
 //!
-//! Whoever drives the machine (lockstep inline, the conductor by messages) does what [`Clock::next`]
-//! says and reports back. A jump leaves out ticks in which nobody is called; it changes no bit,
+//! Whoever drives the machine (lockstep inline, the conductor by messages) does what
+//! [`Clock::next`] says and reports back. A jump leaves out ticks in which nobody is called; it changes no bit,
 //! because physics may be cut anywhere.
 
 use crate::event_manager::Publication;

@@ -139,7 +139,7 @@ pub struct Candidate {
     pub direction: DVec2,
     /// Cut β: from the cue ball's direction to the ball's wanted one, anticlockwise positive [rad].
     pub cut_rad: f64,
-    /// Cut that is aimed for, (1 + f) β: from the cue ball's direction to the line of centres [rad].
+    /// Cut that is aimed for, (1 + f) β: cue ball's direction against the line of centres [rad].
     pub commanded_cut_rad: f64,
     /// Entry angle ε between the ball's way and the pocket's heading, not negative [rad].
     pub entry_rad: f64,

@@ -12,9 +12,12 @@ use smallvec::SmallVec;
 /// So many turns in a row without a pocketed object ball are a draw.
 const DRY_TURNS_MAX: u32 = 60;
 
+/// Whether a shot broke one rule.
+type Rule = fn(&State, &Shot) -> bool;
+
 /// What makes a shot a foul. There are no others: a push, a ball that still moves, or the wrong
 /// player's stroke are none in this game.
-const FOULS: [(Foul, fn(&State, &Shot) -> bool); 9] = [
+const FOULS: [(Foul, Rule); 9] = [
     (Foul::Scratch, scratch),
     (Foul::CueOff, cue_ball_off),
     (Foul::NoContact, no_contact),

@@ -1,6 +1,6 @@
 //! The phases of a turn: all that is left of the paper's statechart (figure 5.1).
 
-use super::state::GameKind;
+use crate::ids::GameKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 

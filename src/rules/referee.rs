@@ -5,13 +5,14 @@
 
 use super::phase::{Phase, Signal};
 use super::shot::{Shot, watch};
-use super::state::{GameKind, State};
+use super::state::State;
 use super::{judge_of, legal_first, topics};
 use crate::events::{
     BallInHand, Call, Command, Event, Fact, FactKind, Source, Topics, Turn, TurnAfter, Verdict,
     Zone,
 };
 use crate::hash::StateHash;
+use crate::ids::GameKind;
 use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
 use crate::tick::{Delivered, Outcome, Participant};
@@ -222,8 +223,8 @@ impl Participant for Referee {
     fn hash(&self, hash: &mut StateHash) {
         hash.u64(self.game as u64);
         hash.u64(self.phase as u64);
-        self.state.hash(hash);
-        self.shot.hash(hash);
+        self.state.hash_into(hash);
+        self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
     }
 }

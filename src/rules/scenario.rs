@@ -3,8 +3,9 @@
 use super::fact_json::read_fact;
 use super::judge;
 use super::shot::{Shot, watch};
-use super::state::{GameKind, State};
+use super::state::State;
 use crate::events::{Call, Verdict};
+use crate::ids::GameKind;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 

@@ -140,7 +140,7 @@ impl Shot {
     }
 
     /// Adds everything that can still decide the verdict to `hash`.
-    pub fn hash(&self, hash: &mut StateHash) {
+    pub fn hash_into(&self, hash: &mut StateHash) {
         let (zone, ok) = self.placement.map_or((0, false), |(zone, ok)| (1 + zone as u64, ok));
         let flags = [
             ok,

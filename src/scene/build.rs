@@ -1,8 +1,8 @@
 //! Makes the table and the balls that a scene names.
 
+use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
-use crate::ids::PlayerId;
 use crate::mesh::{Face, Mesh, parse_obj};
 use crate::rack::Rack;
 use crate::table::Table;

@@ -48,7 +48,7 @@ impl Scene {
         );
         match &self.rules {
             Some(rules) => {
-                let detail = format!("referees {}; a task", rules.game.name());
+                let detail = format!("referees {}; a task", rules.game.id());
                 plan.add(PlanKind::Actor, "rules", &detail);
             }
             None => plan.left_out("rules", "the scene has no [rules]"),

@@ -333,12 +333,14 @@ fn spring(section: &Section<'_>) -> Result<Spring, SceneError> {
 }
 
 fn rules(section: &Section<'_>) -> Result<RulesSection, SceneError> {
-    section.allow(&["game"])?;
-    let games = Game::ALL.map(|game| ([game.name(), game.id()], game));
-    let choices: Vec<(&[&'static str], Game)> =
+    section.allow(&["game", "first_player"])?;
+    let first = section.integer("first_player", 1..=2)?.unwrap_or(1);
+    let first_player = PlayerId(first as u8);
+    let games = GameKind::ALL.map(|game| ([game.id(), game.short_id()], game));
+    let choices: Vec<(&[&'static str], GameKind)> =
         games.iter().map(|(names, game)| (&names[..], *game)).collect();
     match section.choice("game", &choices)? {
-        Some(game) => Ok(RulesSection { game }),
+        Some(game) => Ok(RulesSection { game, first_player }),
         None => Err(section.missing(
             "game",
             "[rules] names a game",

@@ -113,12 +113,15 @@ impl Table {
     }
 }
 
+/// Name, material, and which parts of the body it takes.
+type Kind = (&'static str, Material, fn(Part) -> bool);
+
 /// The parts that balls touch, all four quarters of them.
 fn body(table: &TableParameters) -> Vec<DisplayPart> {
     // A table that exists has a plan that closes; its finer division closes too.
     let Some(quarter) = quarter(table, &DETAIL) else { return Vec::new() };
     let noses = 0.5 * DVec2::new(table.length_m, table.width_m);
-    let kinds: [(&'static str, Material, fn(Part) -> bool); 4] = [
+    let kinds: [Kind; 4] = [
         ("bed", Material::Cloth, |part| matches!(part, Part::Bed | Part::Lip(_))),
         ("cushions", Material::CushionCloth, |part| {
             matches!(part, Part::LongCushion | Part::FootCushion)

@@ -52,7 +52,7 @@ fn the_referee_agrees_with_the_scenarios() {
             let fact: Fact = serde_json::from_value(event.clone().into()).unwrap();
             said.extend(referee.handle(&fact));
         }
-        assert_eq!(verdicts(&said), [expected.clone()], "{}", scenario.id);
+        assert_eq!(verdicts(&said), std::slice::from_ref(&expected), "{}", scenario.id);
         let is_over = expected.turn == TurnAfter::End;
         assert_eq!(referee.phase() == Phase::Over, is_over, "{}", scenario.id);
         let next = said.last().and_then(|event| match event {
@@ -64,7 +64,7 @@ fn the_referee_agrees_with_the_scenarios() {
 }
 
 fn fact(text: &str) -> Fact {
-    serde_json::from_str(text).unwrap()
+    serde_json::from_str(text).expect("a test writes facts as rule files do")
 }
 
 /// One shot: a stroke at `t`, what `between` lists, and rest.

@@ -1,6 +1,10 @@
 //! Seeded fuzz tests. `FUZZ_SEED` and `FUZZ_EVENTS` choose another run or a longer one.
 
+#![allow(clippy::unwrap_used)]
+
 /// Texts that come from outside: scenes and meshes.
 mod files;
 /// Seeds from the environment, and ways to spoil a text.
 mod generator;
+/// Sequences of facts, possible and impossible, against the referee.
+mod rules;

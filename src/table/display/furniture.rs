@@ -82,8 +82,7 @@ fn casting(
     let fits = |angle: f64| {
         [rim, rim + width].iter().all(|radius| {
             let p = centre + *radius * direction(heading + angle);
-            // The side pocket's plate only has the long rail beside it.
-            (first == 0.0 || p.x > wood.x) && p.y > wood.y
+            p.x > wood.x || p.y > wood.y
         })
     };
     let mut half_angle = 0.0;
