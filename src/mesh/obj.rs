@@ -70,9 +70,9 @@ fn problem(line: usize, problem: String) -> ObjError {
     ObjError::Line { line, problem }
 }
 
-/// The beginning of a word, so that a hostile line does not fill the screen.
+/// The beginning of a word, so that a hostile line neither fills the screen nor breaks it.
 fn short(word: &str) -> String {
-    word.chars().take(40).collect()
+    word.chars().take(40).map(|c| if c.is_control() { '?' } else { c }).collect()
 }
 
 /// Three coordinates; a fourth (the weight) or three colours after them are passed over.

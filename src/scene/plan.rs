@@ -44,7 +44,7 @@ impl Scene {
         plan.add(
             PlanKind::Actor,
             "physics",
-            &format!("moves {} balls; {place}", self.ball_count()),
+            &format!("moves {}; {place}", counted(self.ball_count(), "ball")),
         );
         match &self.rules {
             Some(rules) => {
@@ -95,7 +95,7 @@ impl Scene {
         };
         let gravity = format!("{} m/s² downwards", self.physics.gravity_m_s2);
         term(plan, self.physics.gravity_m_s2 > 0.0, "gravity", &gravity, "gravity_m_s2 is 0");
-        let pairs = format!("{} pairs of balls", balls * balls.saturating_sub(1) / 2);
+        let pairs = counted(balls * balls.saturating_sub(1) / 2, "pair");
         term(plan, balls > 1, "ball-ball contact", &pairs, "fewer than two balls");
         let friction = self.physics.ball_friction && balls > 1;
         let why = if balls > 1 { "ball_friction is false" } else { "fewer than two balls" };
@@ -103,11 +103,13 @@ impl Scene {
         let faces = self.table.is_some() || !self.meshes.is_empty() || !self.boxes.is_empty();
         let why = "no [table], [[mesh]] or [[box]]";
         term(plan, faces, "ball-face contact", "found through a grid of cells", why);
-        let planes = format!("{} half spaces", self.planes.len());
-        term(plan, !self.planes.is_empty(), "ball-plane contact", &planes, "no [[plane]]");
+        // A table stands on the floor of a room.
+        let count = self.planes.len() + usize::from(self.table.is_some());
+        let why = "no [[plane]], and no [table] with its floor";
+        term(plan, count > 0, "ball-plane contact", &counted(count, "half space"), why);
         term(plan, self.table.is_some(), "pockets", "balls that fall stay down", "no [table]");
         let springs = self.ball.iter().filter(|ball| ball.spring.is_some()).count();
-        let detail = format!("{springs} balls hang on springs");
+        let detail = format!("for {}", counted(springs, "ball"));
         term(plan, springs > 0, "springs", &detail, "no [[ball]] has a spring");
         term(plan, self.cue.is_some(), "cue contact", "tip against ball", "no [cue]");
     }
@@ -118,6 +120,11 @@ impl Scene {
         let replaced = |id| self.ball.iter().any(|ball| ball.id == id);
         balls.rack.ids().filter(|id| !replaced(*id)).count() + self.ball.len()
     }
+}
+
+/// A number of things in words.
+fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 struct Plan {

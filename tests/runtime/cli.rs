@@ -1,0 +1,177 @@
+//! The program as a shell sees it: what it prints where, and its exit codes.
+
+use serde_json::Value;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn program(arguments: &[&str]) -> Output {
+    with_stdin(arguments, "")
+}
+
+fn with_stdin(arguments: &[&str], stdin: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_hapticbillard"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Who does not read stdin has closed it by now; that is no failure.
+    let _ = child.stdin.take().unwrap().write_all(stdin.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn lines(bytes: &[u8]) -> Vec<Value> {
+    let text = std::str::from_utf8(bytes).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).unwrap()
+}
+
+/// A folder of this test's own, empty at its start.
+pub fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[track_caller]
+fn refused(arguments: &[&str], expected: &str) {
+    let output = program(arguments);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(output.stdout.is_empty(), "{output:?}");
+    assert_eq!(text(&output.stderr), format!("error: {expected}\n"));
+}
+
+#[test]
+fn every_command_teaches_with_an_example() {
+    let commands = ["play", "simulate", "match", "replay", "render", "scene", "scenes", "rules"];
+    for command in commands {
+        let output = program(&[command, "--help"]);
+        assert!(output.status.success(), "{command}");
+        let help = text(&output.stdout);
+        assert!(
+            help.contains(&format!("  hapticbillard {command} "))
+                || command == "play"
+                || help.contains(&format!("| hapticbillard {command}")),
+            "{help}"
+        );
+        assert!(help.contains("Examples:"), "{help}");
+    }
+    let help = program(&["--help"]);
+    assert!(commands.iter().all(|command| text(&help.stdout).contains(command)));
+}
+
+#[test]
+fn a_mistyped_command_line_exits_with_2() {
+    for wrong in [&["banana"][..], &["scenes", "--yaml"], &["match", "--games", "0"]] {
+        let output = program(wrong);
+        assert_eq!(output.status.code(), Some(2), "{wrong:?}");
+        assert!(output.stdout.is_empty(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn scenes_lists_each_shipped_scene_on_one_line() {
+    let output = program(&["scenes", "--json"]);
+    let lines = lines(&output.stdout);
+    let count = hapticbillard::shipped::SCENES.len();
+    assert_eq!(lines.len(), count + 1);
+    assert_eq!(lines[count]["summary"]["scenes"], count);
+    let plain = program(&["scenes"]);
+    assert_eq!(text(&plain.stdout).lines().count(), count);
+}
+
+#[test]
+fn scene_says_what_starts_and_what_was_left_out() {
+    let lines = lines(&program(&["scene", "one_ball", "--json"]).stdout);
+    let kinds = |kind: &str| lines.iter().filter(|line| line["kind"] == kind).count();
+    let summary = &lines[lines.len() - 1]["summary"];
+    assert_eq!(summary["actors"], kinds("actor"));
+    assert_eq!(summary["terms"], kinds("term"));
+    assert_eq!(summary["left_out"], kinds("left_out"));
+    assert_eq!(summary["balls"], 1);
+    let left_out = |name| lines.iter().any(|l| l["name"] == name && l["kind"] == "left_out");
+    assert!(left_out("renderer") && left_out("rules") && left_out("ball-ball contact"));
+}
+
+#[test]
+fn a_wrong_scene_is_one_line_on_stderr() {
+    let folder = folder("wrong_scene");
+    let file = folder.join("wrong.toml");
+    std::fs::write(&file, "[scene]\nname = \"x\"\n[physics]\nstep_s = 0.004\n").unwrap();
+    let file = file.to_str().unwrap();
+    refused(
+        &["scene", file],
+        &format!(
+            "{file}:4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, \
+             profile, gravity_m_s2, ball_friction, contact_back_dating, thread; did you mean \
+             step_ms?"
+        ),
+    );
+    refused(
+        &["scene", "banana"],
+        "there is no scene 'banana': write a file or one of eight_ball, eight_ball_headless, \
+         free_play, break_shot, one_ball, minigolf",
+    );
+}
+
+const FOUL: &str = "{\"t\":0,\"e\":\"place\",\"ball\":\"0\",\"zone\":\"kitchen\",\"ok\":true}\n\
+    {\"t\":0.1,\"e\":\"tip\",\"ball\":\"0\"}\n# a comment\n{\"t\":9,\"e\":\"settle\"}\n";
+
+#[test]
+fn rules_judges_what_is_piped_in() {
+    let output = with_stdin(&["rules", "--game", "paper8", "--why", "--json"], FOUL);
+    assert!(output.status.success(), "{output:?}");
+    let lines = lines(&output.stdout);
+    let verdict = lines.iter().find(|line| line.get("verdict").is_some()).unwrap();
+    assert_eq!(verdict["verdict"]["fouls"][0], "no_contact");
+    assert!(!verdict["why"].as_array().unwrap().is_empty());
+    let summary = &lines[lines.len() - 1]["summary"];
+    assert_eq!((&summary["verdicts"], &summary["fouls"]), (&1.into(), &1.into()));
+
+    let wrong = with_stdin(&["rules"], "{\"t\":0,\"e\":\"banana\"}\n");
+    assert_eq!(wrong.status.code(), Some(2));
+    let line = text(&wrong.stderr);
+    assert!(line.starts_with("error: stdin: line 1,") && line.lines().count() == 1, "{line}");
+}
+
+#[test]
+fn a_failing_scenario_exits_with_1() {
+    let folder = folder("scenarios");
+    let file = folder.join("one.json");
+    let scenario = |legal: bool| {
+        format!(
+            "[{{\"id\":\"A\",\"ruleset\":\"free_play\",\"state\":{{\"player\":1,\"shot\":\
+             \"normal\",\"on_table\":[\"1\"]}},\"events\":[{{\"t\":0,\"e\":\"tip\",\"ball\":\
+             \"0\"}},{{\"t\":1,\"e\":\"settle\"}}],\"expect\":{{\"legal\":{legal},\"turn\":\"continue\",\"next_player\":1}}}}]"
+        )
+    };
+    for (legal, code) in [(true, 0), (false, 1)] {
+        std::fs::write(&file, scenario(legal)).unwrap();
+        let output = program(&["rules", "--json", "--scenarios", file.to_str().unwrap()]);
+        assert_eq!(output.status.code(), Some(code), "{output:?}");
+        let lines = lines(&output.stdout);
+        assert_eq!(lines[0]["status"], if legal { "pass" } else { "fail" });
+        assert_eq!(lines[1]["summary"]["pass"], u32::from(legal));
+    }
+}
+
+#[test]
+fn without_features_no_graphics_library_is_built() {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--locked", "--package", "hapticbillard-actors"])
+        .args(["--no-default-features", "--edges", "normal", "--prefix", "none"])
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap())
+        .output()
+        .unwrap();
+    let tree = text(&output.stdout);
+    assert!(tree.contains("kameo "), "{output:?}");
+    for library in ["three-d", "winit", "egui", "khronos-egl", "cpal"] {
+        assert!(!tree.lines().any(|line| line.starts_with(&format!("{library} "))), "{library}");
+    }
+}
