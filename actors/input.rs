@@ -1,10 +1,13 @@
-//! The actors of the input manager: a hand, or a recording in its place.
+//! The actors of the input manager: a hand, or something else in its place.
 //!
 //! Both answer [`FrameOf`]: everything that enters a game from outside enters here.
 
 use crate::participant::{Answer, Mail, collect};
+use hapticbillard::events::{Source, Topics};
+use hapticbillard::hash::StateHash;
 use hapticbillard::input::{Human, HumanView, RawInput};
-use hapticbillard::tick::{FrameSource, Inflow};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
 use hapticbillard::units::Tick;
 use kameo::prelude::*;
 
@@ -15,38 +18,20 @@ pub struct FrameOf(pub Tick);
 #[derive(Debug, Reply)]
 pub struct Entered(pub Inflow);
 
-/// A hand at mouse and keyboard.
-#[derive(Actor)]
-pub struct Input {
-    core: Human,
-    /// Raw input from the window, bounded there: when it is full the window drops movements, which
-    /// it coalesces anyway, and waits with buttons.
-    raw: flume::Receiver<RawInput>,
-    /// What the hand sees and does, for the picture.
-    view: triple_buffer::Input<HumanView>,
-    buffer: Vec<RawInput>,
-}
+/// Somebody who acts from outside and hears what happens.
+pub trait Hand: FrameSource + Participant {}
 
-impl Input {
-    /// Joins the core with its window.
-    pub fn new(
-        core: Human,
-        raw: flume::Receiver<RawInput>,
-        view: triple_buffer::Input<HumanView>,
-    ) -> Self {
-        Input { core, raw, view, buffer: Vec::new() }
-    }
-}
+impl<H: FrameSource + Participant> Hand for H {}
+
+/// The actor of a hand.
+#[derive(Actor)]
+pub struct Input(pub Box<dyn Hand>);
 
 impl Message<FrameOf> for Input {
     type Reply = Entered;
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
-        self.buffer.clear();
-        self.buffer.extend(self.raw.try_iter());
-        let inflow = self.core.inflow(message.0, &self.buffer);
-        self.view.write(self.core.view());
-        Entered(inflow)
+        Entered(self.0.inflow(message.0))
     }
 }
 
@@ -54,11 +39,11 @@ impl Message<Mail> for Input {
     type Reply = Answer;
 
     async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        collect(&mut self.core, &mail)
+        collect(&mut *self.0, &mail)
     }
 }
 
-/// Somebody else in its place: a recording, a script.
+/// Somebody who acts from outside and hears nothing: a recording, a script.
 #[derive(Actor)]
 pub struct StandIn(pub Box<dyn FrameSource>);
 
@@ -67,5 +52,59 @@ impl Message<FrameOf> for StandIn {
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
         Entered(self.0.inflow(message.0))
+    }
+}
+
+/// A hand at the mouse and keyboard of a window.
+pub struct WindowHand {
+    core: Human,
+    /// What devices say. The window bounds the channel; when it is full it keeps movements, which
+    /// add up, and waits with buttons.
+    raw: flume::Receiver<RawInput>,
+    /// What the hand sees and does, for the picture: only the newest counts.
+    view: triple_buffer::Input<HumanView>,
+    buffer: Vec<RawInput>,
+}
+
+impl WindowHand {
+    /// Joins the core with its window.
+    pub fn new(
+        core: Human,
+        raw: flume::Receiver<RawInput>,
+        view: triple_buffer::Input<HumanView>,
+    ) -> Self {
+        WindowHand { core, raw, view, buffer: Vec::new() }
+    }
+}
+
+impl FrameSource for WindowHand {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        self.buffer.clear();
+        self.buffer.extend(self.raw.try_iter());
+        let inflow = self.core.inflow(tick, &self.buffer);
+        self.view.write(self.core.view());
+        inflow
+    }
+}
+
+impl Participant for WindowHand {
+    fn source(&self) -> Source {
+        self.core.source()
+    }
+
+    fn topics(&self) -> Topics {
+        self.core.topics()
+    }
+
+    fn start(&mut self, table: &Snapshot) -> Outcome {
+        self.core.start(table)
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        self.core.collect(delivered)
+    }
+
+    fn hash(&self, hash: &mut StateHash) {
+        self.core.hash(hash);
     }
 }

@@ -22,6 +22,8 @@ pub mod input;
 
 pub mod observer;
 
+pub mod event_log;
+
 pub mod recorder;
 
 pub mod conductor;

@@ -7,7 +7,7 @@
 use crate::ai::Ai;
 use crate::conductor::{Below, Conductor, RunError};
 use crate::event_manager::{EventManager, Sink};
-use crate::input::{Input, StandIn};
+use crate::input::{Hand, Input, StandIn};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
 use crate::participant::{self, Answer, Mail, Seat, door};
@@ -15,7 +15,6 @@ use crate::physics::Physics;
 use crate::recorder::Recorder;
 use crate::rules::Rules;
 use hapticbillard::cast::Cast;
-use hapticbillard::input::{HumanView, RawInput};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -65,13 +64,8 @@ pub enum InputPort {
     None,
     /// A recording or a script.
     StandIn(Box<dyn FrameSource>),
-    /// A hand in a window.
-    Hand {
-        /// What devices say.
-        raw: flume::Receiver<RawInput>,
-        /// What the hand sees and does.
-        view: triple_buffer::Input<HumanView>,
-    },
+    /// A hand: it hears what happens.
+    Hand(Box<dyn Hand>),
 }
 
 impl Setup {
@@ -105,11 +99,13 @@ pub fn run(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         .enable_time()
         .build()
         .map_err(|error| RunError::Start(error.to_string()))?;
-    runtime.block_on(play(cast, setup))
+    // Everything runs on the workers: a step that had to cross threads would cost a wake-up.
+    let game = runtime.spawn(play(cast, setup));
+    runtime.block_on(game).map_err(|error| RunError::Start(error.to_string()))?
 }
 
 async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
-    let Cast { simulation, referee, players, human, .. } = cast;
+    let Cast { simulation, referee, players, .. } = cast;
     let table = simulation.snapshot(0.0);
 
     // Participants, in the order in which they are registered.
@@ -118,16 +114,13 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     seats.extend(players.into_iter().map(|core| take_seat(core, Ai, &table)));
     seats.extend(setup.observers.into_iter().map(|core| take_seat(core, Observer, &table)));
 
-    let input = match (setup.input, human) {
-        (InputPort::None, _) | (InputPort::Hand { .. }, None) => None,
-        (InputPort::StandIn(source), _) => {
-            let actor = spawn(StandIn(source));
-            Some(actor.reply_recipient())
-        }
-        (InputPort::Hand { raw, view }, Some(mut core)) => {
+    let input = match setup.input {
+        InputPort::None => None,
+        InputPort::StandIn(source) => Some(spawn(StandIn(source)).reply_recipient()),
+        InputPort::Hand(mut core) => {
             let (source, topics) = (core.source(), core.topics());
-            let first = participant::start(&mut core, &table);
-            let actor = spawn(Input::new(core, raw, view));
+            let first = participant::start(&mut *core, &table);
+            let actor = spawn(Input(core));
             seats.push(Seat { source, topics, first, ask: door(actor.clone()) });
             Some(actor.reply_recipient())
         }

@@ -7,3 +7,9 @@
 mod cli;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// Who stands in for whom.
+mod mocks;
+/// Threads and memory, counted from outside.
+mod resources;
+/// Actors against lockstep, replays, a mock hand.
+mod same_bits;
