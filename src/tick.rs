@@ -10,8 +10,8 @@
 //! ```
 //!
 //! Whoever drives the machine (lockstep inline, the conductor by messages) does what
-//! [`Clock::next`] says and reports back. A jump leaves out ticks in which nobody is called; it changes no bit,
-//! because physics may be cut anywhere.
+//! [`Clock::next`] says and reports back. A jump leaves out ticks in which nobody is called; it
+//! changes no bit, because physics may be cut anywhere.
 
 use crate::event_manager::Publication;
 use crate::events::{Command, Event, Fact, FactSet, Source, Stamped, Topics};

@@ -134,7 +134,8 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
             players: kinds.clone(),
             noise: args.noise,
         };
-        let record = args.record.as_ref().map(|dir| dir.join(format!("game_{:04}.jsonl", game + 1)));
+        let file = format!("game_{:04}.jsonl", game + 1);
+        let record = args.record.as_ref().map(|folder| folder.join(file));
         let how = Headless { driver: args.driver.into(), record, ..Headless::default() };
         let start = Instant::now();
         let (finished, tally) = play_headless(&stage.with(overrides), how)?;

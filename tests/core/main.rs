@@ -19,24 +19,5 @@ mod scene;
 mod table;
 /// What the clock leaves out and what it must not.
 mod tick;
-
-/// Order, delay and interest of the event manager.
-mod event_manager;
-
-/// Racks: order of the balls, gaps, spotting.
-mod rack;
-
-/// The referee, the rule console and the scenarios of the paper's eight-ball.
-mod rules;
-
-/// Scene files: what is wrong in them is said in one exact line.
-mod scene;
-
-/// Tables: dimensions measured back from the vertices, closed body, pockets.
-mod table;
-
-/// What the clock leaves out and what it must not.
-mod tick;
-
 /// The shape of the repository.
 mod tidy;

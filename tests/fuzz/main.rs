@@ -1,5 +1,6 @@
 //! Seeded fuzz tests. `FUZZ_SEED` and `FUZZ_EVENTS` choose another run or a longer one.
 
+// Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
 /// Texts that come from outside: scenes and meshes.
