@@ -3,8 +3,9 @@
 //! Faces know no billiards beyond the name of their surface; any course of obstacles fits
 //! (paper, chapter 2). Meshes do not move and do not collide with each other.
 
+mod checks;
 mod obj;
-pub use obj::{ObjError, parse_obj};
+pub use obj::{OBJ_COUNT_MAX, ObjError, parse_obj};
 
 use crate::ids::{PocketId, Rail};
 use glam::DVec3;

@@ -1,1 +1,210 @@
 //! Racks: which balls stand where when a game begins.
+//!
+//! A rack is a recipe; [`Rack::place`] turns it into balls on a table. Racked balls stand a few
+//! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
+//! exists nor has a unique break.
+
+use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ids::BallId;
+use crate::table::{Bed, Table};
+use glam::{DQuat, DVec2, DVec3};
+use rand::{Rng, SeedableRng, seq::SliceRandom};
+use rand_pcg::Pcg64Mcg;
+
+/// Distance that a racked ball may stand off its place [m]; gaps are 0 to four times this.
+pub const JITTER_MAX_M: f64 = 0.0125e-3;
+
+/// Why balls cannot be racked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RackError {
+    /// The table has no spots.
+    #[error("table '{table}' has no bed to rack balls on; name a table preset or place each ball")]
+    NoBed {
+        /// Its name.
+        table: String,
+    },
+    /// Two balls have one name.
+    #[error("ball {id} is placed twice; every ball needs an id of its own")]
+    Twice {
+        /// The name.
+        id: BallId,
+    },
+}
+
+/// Which balls stand where when a game begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rack {
+    layout: Layout,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Layout {
+    EightBall { seed: u64 },
+    NineBall { seed: u64 },
+    Balls(Vec<(Ball, BallState)>),
+}
+
+impl Rack {
+    /// Fifteen balls in a triangle, its apex on the foot spot: the 8 in the middle of the third
+    /// row, a solid and a stripe in the back corners, the rest as the seed shuffles them (WPA rule
+    /// 3.2). The cue ball stands on the head spot.
+    pub fn eight_ball(seed: u64) -> Rack {
+        Rack { layout: Layout::EightBall { seed } }
+    }
+
+    /// Nine balls in a diamond: the 1 on the foot spot, the 9 in the middle, the rest as the seed
+    /// shuffles them (WPA rule 2.2). The cue ball stands on the head spot.
+    pub fn nine_ball(seed: u64) -> Rack {
+        Rack { layout: Layout::NineBall { seed } }
+    }
+
+    /// These balls, just as they are.
+    pub fn from_balls(balls: Vec<(Ball, BallState)>) -> Rack {
+        Rack { layout: Layout::Balls(balls) }
+    }
+
+    /// The balls on this table, in the order of their ids.
+    pub fn place(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, RackError> {
+        let (rows, order, mut random) = match &self.layout {
+            Layout::Balls(balls) => return sorted(balls.clone()),
+            Layout::EightBall { seed } => {
+                let mut random = Pcg64Mcg::seed_from_u64(*seed);
+                (&[1, 2, 3, 4, 5][..], eight_ball_order(&mut random), random)
+            }
+            Layout::NineBall { seed } => {
+                let mut random = Pcg64Mcg::seed_from_u64(*seed);
+                (&[1, 2, 3, 2, 1][..], nine_ball_order(&mut random), random)
+            }
+        };
+        let bed = table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() })?;
+        let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
+        for (id, place) in order.into_iter().zip(places(rows, &bed)) {
+            let off = DVec2::new(unit(&mut random), unit(&mut random));
+            // A point of a square, drawn into the circle, so that no pair can come too near.
+            let off = off / off.length().max(1.0) * JITTER_MAX_M;
+            balls.push(standing(Ball::pool(BallId(id)), place + off));
+        }
+        sorted(balls)
+    }
+}
+
+/// A number from −1 to 1.
+fn unit(random: &mut Pcg64Mcg) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+/// Ids row by row from the apex, each row from right to left.
+fn eight_ball_order(random: &mut Pcg64Mcg) -> Vec<u16> {
+    let mut others: Vec<u16> = (1..=15).filter(|id| *id != BallId::EIGHT.0).collect();
+    others.shuffle(random);
+    // The last of each group goes to a back corner; a coin decides which to which.
+    let mut take = |stripe: bool| {
+        let found = others.iter().rposition(|id| (*id > BallId::EIGHT.0) == stripe);
+        found.map(|index| others.remove(index))
+    };
+    let mut corners = [take(false), take(true)];
+    if random.next_u64() & 1 == 1 {
+        corners.swap(0, 1);
+    }
+    let mut order = others;
+    order.insert(4, BallId::EIGHT.0);
+    if let [Some(right), Some(left)] = corners {
+        order.insert(10, right);
+        order.push(left);
+    }
+    order
+}
+
+fn nine_ball_order(random: &mut Pcg64Mcg) -> Vec<u16> {
+    let mut order: Vec<u16> = (2..=8).collect();
+    order.shuffle(random);
+    order.insert(0, 1);
+    order.insert(4, 9);
+    order
+}
+
+/// Places row by row from the apex on the foot spot towards the foot rail.
+fn places<'a>(rows: &'a [u16], bed: &Bed) -> impl Iterator<Item = DVec2> + 'a {
+    let apex = bed.foot_spot();
+    // Neighbours that both step towards each other still do not overlap.
+    let pitch = 2.0 * (crate::ball::POOL_RADIUS_M + JITTER_MAX_M) + 1e-9;
+    let row_pitch = 0.75f64.sqrt() * pitch;
+    rows.iter().enumerate().flat_map(move |(row, count)| {
+        (0..*count).map(move |i| {
+            let across = (f64::from(i) - 0.5 * f64::from(count - 1)) * pitch;
+            apex + DVec2::new(row as f64 * row_pitch, across)
+        })
+    })
+}
+
+/// A ball at rest on the cloth.
+fn standing(ball: Ball, place: DVec2) -> (Ball, BallState) {
+    let state = BallState {
+        id: ball.id,
+        position: place.extend(ball.radius_m),
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        orientation: DQuat::IDENTITY,
+        motion: Motion::Rest,
+        place: BallPlace::OnTable,
+    };
+    (ball, state)
+}
+
+fn sorted(mut balls: Vec<(Ball, BallState)>) -> Result<Vec<(Ball, BallState)>, RackError> {
+    balls.sort_by_key(|(ball, _)| ball.id);
+    match balls.windows(2).find(|pair| pair[0].0.id == pair[1].0.id) {
+        Some(pair) => Err(RackError::Twice { id: pair[0].0.id }),
+        None => Ok(balls),
+    }
+}
+
+/// The first two balls that share space, and how deeply [m]. Balls that do not collide or are not
+/// on the table are passed over.
+pub fn overlaps(balls: &[(Ball, BallState)]) -> Option<(BallId, BallId, f64)> {
+    let is_there = |(ball, state): &&(Ball, BallState)| {
+        ball.flags.collide && state.place == BallPlace::OnTable
+    };
+    let present: Vec<_> = balls.iter().filter(is_there).collect();
+    for (i, (ball, state)) in present.iter().enumerate() {
+        for (other, other_state) in &present[i + 1..] {
+            let reach = ball.radius_m + other.radius_m;
+            let depth = reach - state.position.distance(other_state.position);
+            if depth > 0.0 {
+                return Some((ball.id, other.id, depth));
+            }
+        }
+    }
+    None
+}
+
+/// Where a ball of `radius` is spotted: on the foot spot, or on the long string as near behind it
+/// as the occupied places (middle, radius) allow; if there is no room, as near before it (WPA
+/// rule 1.4). All in metres.
+pub fn spot_position(
+    bed: &Bed,
+    occupied: impl Iterator<Item = (DVec2, f64)>,
+    radius: f64,
+) -> DVec2 {
+    // A spotted ball stands as close as can be without touching.
+    let gap = 1e-6;
+    let occupied: Vec<(DVec2, f64)> = occupied.collect();
+    let spot = bed.foot_spot();
+    let is_free = |x: f64| {
+        let here = DVec2::new(x, spot.y);
+        bed.holds(here, radius)
+            && occupied.iter().all(|(place, other)| place.distance(here) > radius + other)
+    };
+    // The nearest free place is the spot itself or touches one of the balls.
+    let mut candidates = vec![spot.x];
+    for (place, other) in &occupied {
+        let reach = radius + other + gap;
+        let off = place.y - spot.y;
+        let half = (reach * reach - off * off).max(0.0).sqrt();
+        candidates.extend([place.x - half, place.x + half]);
+    }
+    let free: Vec<f64> = candidates.into_iter().filter(|x| is_free(*x)).collect();
+    let behind = free.iter().copied().filter(|x| spot.x <= *x).min_by(f64::total_cmp);
+    let before = free.iter().copied().filter(|x| *x < spot.x).max_by(f64::total_cmp);
+    DVec2::new(behind.or(before).unwrap_or(spot.x), spot.y)
+}

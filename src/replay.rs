@@ -1,1 +1,358 @@
-//! Recordings and their replay.
+//! Recordings: everything that entered a game from outside, and hashes to check a replay by.
+//!
+//! A recording is JSON lines. The first holds the header; then come frames (before they are used),
+//! state hashes (one per subsystem at every tick that delivered a fact) and at last the end.
+//!
+//! Guaranteed: the same build replays a recording bit for bit, with either driver, jumping or not.
+//! Not guaranteed: another version of the program, whose laws may differ; the replay then stops at
+//! the first divergence and names the tick and the ball.
+
+use crate::event_manager::Publication;
+use crate::events::Source;
+use crate::hash::{Digest, StateHash};
+use crate::ids::BallId;
+use crate::physics::Snapshot;
+use crate::tick::{End, Frame};
+use crate::units::Tick;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Version of the format.
+pub const VERSION: u32 = 1;
+/// The largest recording that is read [bytes].
+pub const SIZE_MAX: usize = 256 << 20;
+
+/// The first line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// Version of the format.
+    pub version: u32,
+    /// Program and version that wrote it.
+    pub program: String,
+    /// Name of the scene file.
+    pub scene_name: String,
+    /// The scene file's whole text.
+    pub scene: String,
+    /// Mesh files that the scene names, by the name it gives them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: BTreeMap<String, String>,
+    /// The seed of this game.
+    pub seed: u64,
+    /// What the command line changed: who plays, noise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub players: Vec<String>,
+}
+
+/// State hashes after a tick, one per subsystem.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TickHash {
+    /// The tick.
+    pub tick: Tick,
+    /// The simulation's.
+    pub physics: Digest,
+    /// Each participant's, in order of registration.
+    pub participants: Vec<(Source, Digest)>,
+    /// Each ball's, shortened to 32 bits: tells which one diverged.
+    pub balls: Vec<(BallId, u32)>,
+}
+
+impl TickHash {
+    /// Puts the hashes of a tick together.
+    pub fn new(
+        tick: Tick,
+        physics: Digest,
+        participants: impl IntoIterator<Item = (Source, Digest)>,
+        table: &Snapshot,
+    ) -> Self {
+        let balls = table.balls.iter().map(|ball| {
+            let mut hash = StateHash::new();
+            hash.vec3(ball.position);
+            hash.vec3(ball.velocity);
+            hash.vec3(ball.angular_velocity);
+            hash.u64(ball.place as u64);
+            (ball.id, hash.finish().0 as u32)
+        });
+        // A hand is not computed, so it has no hash: the frames stand for it.
+        let participants = participants.into_iter().filter(|(source, _)| *source != Source::Input);
+        TickHash { tick, physics, participants: participants.collect(), balls: balls.collect() }
+    }
+
+    /// One hash over all subsystems.
+    pub fn all(&self) -> Digest {
+        let mut hash = StateHash::new();
+        hash.u64(self.physics.0);
+        self.participants.iter().for_each(|(_, digest)| hash.u64(digest.0));
+        hash.finish()
+    }
+
+    /// The first difference to what was recorded.
+    pub fn divergence(&self, recorded: &TickHash) -> Option<Divergence> {
+        if self == recorded {
+            return None;
+        }
+        let ball = self.balls.iter().zip(&recorded.balls).find(|(own, old)| own != old);
+        let what = if let Some((own, _)) = ball {
+            format!("ball {}", own.0)
+        } else if self.physics != recorded.physics {
+            "physics (no ball's own state)".into()
+        } else {
+            let pair = self.participants.iter().zip(&recorded.participants);
+            match pair.into_iter().find(|(own, old)| own != old) {
+                Some((own, _)) => format!("{:?}", own.0).to_lowercase(),
+                None => "who takes part".into(),
+            }
+        };
+        Some(Divergence { tick: self.tick, what })
+    }
+}
+
+/// Where a replay left the recording.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
+#[error("the replay diverges at tick {} ({} s): {what} is not as recorded", tick.0, tick.end_s())]
+pub struct Divergence {
+    /// When.
+    pub tick: Tick,
+    /// The first ball or subsystem that differs.
+    pub what: String,
+}
+
+/// One line of a recording.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Line {
+    /// The first.
+    Recording(Header),
+    /// What entered in a tick.
+    Frame {
+        /// The tick.
+        tick: Tick,
+        /// What entered.
+        publish: Frame,
+    },
+    /// Hashes to check by.
+    Hash(TickHash),
+    /// The last.
+    End {
+        /// The last tick.
+        tick: Tick,
+        /// Why it ended.
+        reason: End,
+    },
+}
+
+impl Line {
+    /// The line as it is written, without the line break.
+    pub fn to_json(&self) -> String {
+        // Plain data with string keys: serialising it cannot fail.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// A recording that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// The first line.
+    pub header: Header,
+    /// What entered, by tick.
+    pub frames: BTreeMap<Tick, Frame>,
+    /// What to check by, by tick.
+    pub hashes: BTreeMap<Tick, TickHash>,
+    /// How it ended; none if the recording was cut off.
+    pub end: Option<(Tick, End)>,
+}
+
+/// Why a recording cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RecordingError {
+    /// Too large.
+    #[error("the recording has {bytes} bytes; at most {SIZE_MAX} are read")]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// Nothing in it.
+    #[error("line 1: the file is empty; a recording begins with {{\"recording\":{{…}}}}")]
+    Empty,
+    /// A line is no recording line.
+    #[error("line {line}, column {column}: {problem}; {remedy}")]
+    Line {
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+        /// What is wrong.
+        problem: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// Another format.
+    #[error("line 1: format version {found}; this program reads version {VERSION}")]
+    Version {
+        /// The version found.
+        found: u32,
+    },
+}
+
+impl Recording {
+    /// Reads a recording.
+    ///
+    /// # Errors
+    /// [`RecordingError`] with the first line that does not fit.
+    pub fn parse(text: &str) -> Result<Self, RecordingError> {
+        if text.len() > SIZE_MAX {
+            return Err(RecordingError::TooLarge { bytes: text.len() });
+        }
+        let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let (_, first) = lines.next().ok_or(RecordingError::Empty)?;
+        let header = match parse_line(1, first, false)? {
+            Line::Recording(header) => header,
+            _ => {
+                return Err(wrong(
+                    1,
+                    "the first line is no header",
+                    "begin with {\"recording\":…}",
+                ));
+            }
+        };
+        if header.version != VERSION {
+            return Err(RecordingError::Version { found: header.version });
+        }
+        let mut recording =
+            Recording { header, frames: BTreeMap::new(), hashes: BTreeMap::new(), end: None };
+        let mut last = Tick(0);
+        let total = text.lines().count();
+        for (index, line) in lines {
+            let number = index + 1;
+            if recording.end.is_some() {
+                return Err(wrong(number, "a line after the end", "delete it"));
+            }
+            let cut = number == total && !text.ends_with('\n');
+            match parse_line(number, line, cut)? {
+                Line::Recording(_) => {
+                    return Err(wrong(number, "a second header", "one file holds one recording"));
+                }
+                Line::Frame { tick, publish } => {
+                    if tick < last || recording.frames.insert(tick, publish).is_some() {
+                        return Err(wrong(number, "ticks are not in order", ORDER));
+                    }
+                    last = tick;
+                }
+                Line::Hash(hash) => {
+                    let tick = hash.tick;
+                    if tick < last || recording.hashes.insert(tick, hash).is_some() {
+                        return Err(wrong(number, "ticks are not in order", ORDER));
+                    }
+                    last = tick;
+                }
+                Line::End { tick, reason } => recording.end = Some((tick, reason)),
+            }
+        }
+        Ok(recording)
+    }
+
+    /// The next tick after `now` for which the recording has a frame or a hash.
+    pub fn next_after(&self, now: Tick) -> Option<Tick> {
+        let from = now.after(1)..;
+        let frame = self.frames.range(from.clone()).next().map(|(tick, _)| *tick);
+        let hash = self.hashes.range(from).next().map(|(tick, _)| *tick);
+        let end = self.end.map(|(tick, _)| tick).filter(|tick| *tick > now);
+        [frame, hash, end].into_iter().flatten().min()
+    }
+
+    /// The frame of `tick`; empty if there is none.
+    pub fn frame(&self, tick: Tick) -> Frame {
+        self.frames.get(&tick).cloned().unwrap_or_default()
+    }
+
+    /// The last tick that the recording knows.
+    pub fn last_tick(&self) -> Tick {
+        let frame = self.frames.last_key_value().map(|(tick, _)| *tick);
+        let hash = self.hashes.last_key_value().map(|(tick, _)| *tick);
+        let end = self.end.map(|(tick, _)| tick);
+        [frame, hash, end].into_iter().flatten().max().unwrap_or_default()
+    }
+
+    /// The events that entered, all of them.
+    pub fn publications(&self) -> impl Iterator<Item = &Publication> {
+        self.frames.values().flatten()
+    }
+}
+
+const ORDER: &str = "ticks must rise from line to line";
+
+fn wrong(line: usize, problem: &str, remedy: &'static str) -> RecordingError {
+    RecordingError::Line { line, column: 1, problem: problem.into(), remedy }
+}
+
+fn parse_line(number: usize, line: &str, cut: bool) -> Result<Line, RecordingError> {
+    serde_json::from_str(line).map_err(|error| {
+        let remedy = if cut || error.is_eof() {
+            "the file ends inside this line; delete it to replay the rest"
+        } else {
+            "restore the file, or delete this line and all after it to replay the rest"
+        };
+        // The message ends with its own place, which is that inside the line.
+        let text = error.to_string();
+        let problem = text.split(" at line ").next().unwrap_or(&text).replace('\n', " ");
+        RecordingError::Line { line: number, column: error.column().max(1), problem, remedy }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::events::{Event, MenuAction};
+
+    fn header() -> Line {
+        Line::Recording(Header {
+            version: VERSION,
+            program: "test".into(),
+            scene_name: "one".into(),
+            scene: String::new(),
+            files: BTreeMap::new(),
+            seed: 7,
+            players: Vec::new(),
+        })
+    }
+
+    fn frame(tick: u64) -> Line {
+        let publish = Frame::from_iter([Publication::from(Event::Menu(MenuAction::Pause))]);
+        Line::Frame { tick: Tick(tick), publish }
+    }
+
+    fn text(lines: &[Line]) -> String {
+        lines.iter().map(|line| line.to_json() + "\n").collect()
+    }
+
+    #[test]
+    fn what_was_written_is_read() {
+        let end = Line::End { tick: Tick(9), reason: End::Quit };
+        let recording = Recording::parse(&text(&[header(), frame(3), end])).unwrap();
+        assert_eq!(recording.frame(Tick(3)).len(), 1);
+        assert_eq!(recording.frame(Tick(4)).len(), 0);
+        assert_eq!(recording.next_after(Tick(0)), Some(Tick(3)));
+        assert_eq!(recording.next_after(Tick(3)), Some(Tick(9)));
+        assert_eq!(recording.end, Some((Tick(9), End::Quit)));
+    }
+
+    #[track_caller]
+    fn check_error(text: &str, expected: &str) {
+        let error = Recording::parse(text).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+        assert!(!error.contains('\n'), "{error}");
+    }
+
+    #[test]
+    fn bad_recordings_name_line_and_remedy() {
+        check_error("", "line 1: the file is empty");
+        check_error("{}", "line 1, column 2");
+        let whole = text(&[header(), frame(3)]);
+        check_error(&whole[..whole.len() - 9], "line 2");
+        check_error(&whole[..whole.len() - 9], "delete it to replay the rest");
+        check_error(&text(&[header(), frame(3), frame(2)]), "line 3, column 1: ticks are not in");
+        check_error(&text(&[frame(3)]), "the first line is no header");
+        check_error(&whole.replace("\"version\":1", "\"version\":99"), "format version 99");
+    }
+}

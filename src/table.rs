@@ -2,10 +2,74 @@
 //!
 //! The origin is the middle of the bed, which lies at z = 0; x runs along it from head to foot,
 //! y to the left, z up. All lengths in metres.
+//!
+//! A pool table is made from [`TableParameters`] alone: the closed mesh that balls touch, the
+//! pockets that players aim at, and, when somebody asks, the parts that are drawn. All three agree
+//! because they share one plan; none is read from a model file.
+
+mod parameters;
+
+mod plan;
+
+mod flat;
+
+mod quarter;
+
+mod pocket;
+
+mod physics_mesh;
+
+mod clearance;
+
+mod display;
+
+pub use display::{DisplayPart, Material};
+pub use parameters::{PocketParameters, TableParameters};
 
 use crate::ids::PocketId;
-use crate::mesh::{Mesh, Surface};
+use crate::mesh::{Mesh, ObjError, Surface, parse_obj};
+use crate::shipped;
 use glam::{DVec2, DVec3};
+
+/// Why there is no table.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// No shipped table has this name.
+    #[error("table preset '{name}' is unknown; shipped presets: {known}")]
+    UnknownPreset {
+        /// The name that was asked for.
+        name: String,
+        /// The names that exist.
+        known: String,
+    },
+    /// The text is no set of table parameters.
+    #[error("table parameters cannot be read: {problem}")]
+    Toml {
+        /// What is wrong, with its place.
+        problem: String,
+    },
+    /// A parameter is out of its range.
+    #[error("table parameter {key} = {value} must be from {least} to {most}")]
+    Parameter {
+        /// Its name.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// The least that is allowed, given the other parameters.
+        least: f64,
+        /// The most that is allowed.
+        most: f64,
+    },
+    /// Each parameter is possible, but together they make no table.
+    #[error(
+        "the table's pockets, cushions and rails do not fit each other; \
+         compare mouths, shelves, radii and widths with those of the preset pool-9ft"
+    )]
+    Shape,
+    /// The mesh file is broken.
+    #[error("mesh of the table: {0}")]
+    Obj(#[from] ObjError),
+}
 
 /// A table, or any other ground to play on.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +84,79 @@ pub struct Table {
     pub mesh: Mesh,
     /// Half spaces, infinitely wide.
     pub planes: Vec<Plane>,
+    /// What it was made from, if it is a pool table.
+    pub parameters: Option<TableParameters>,
+}
+
+impl Table {
+    /// A shipped table by name, for example `pool-9ft`.
+    pub fn preset(name: &str) -> Result<Table, TableError> {
+        let text = shipped::table(name).ok_or_else(|| TableError::UnknownPreset {
+            name: name.to_owned(),
+            known: shipped::TABLES.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", "),
+        })?;
+        Table::from_parameters(name, TableParameters::from_toml(text)?)
+    }
+
+    /// A pool table of these dimensions, standing on an endless floor.
+    pub fn from_parameters(name: &str, parameters: TableParameters) -> Result<Table, TableError> {
+        parameters.check()?;
+        let floor = Plane {
+            point: DVec3::new(0.0, 0.0, -parameters.bed_height_m),
+            normal: DVec3::Z,
+            surface: Surface::Floor,
+        };
+        Ok(Table {
+            name: name.to_owned(),
+            bed: Some(Bed { length_m: parameters.length_m, width_m: parameters.width_m }),
+            pockets: PocketId::ALL.map(|id| pocket(&parameters, id)).to_vec(),
+            mesh: physics_mesh::physics_mesh(&parameters)?,
+            planes: vec![floor],
+            parameters: Some(parameters),
+        })
+    }
+
+    /// Endless cloth at z = 0 and nothing else.
+    pub fn plane() -> Table {
+        let cloth = Plane { point: DVec3::ZERO, normal: DVec3::Z, surface: Surface::Cloth };
+        Table { name: "plane".to_owned(), planes: vec![cloth], ..Table::default() }
+    }
+
+    /// A table from a Wavefront OBJ text; every face is an obstacle.
+    pub fn from_mesh(obj_text: &str) -> Result<Table, TableError> {
+        let mesh = parse_obj(obj_text, Surface::Obstacle)?;
+        Ok(Table { name: "mesh".to_owned(), mesh, ..Table::default() })
+    }
+}
+
+/// A pocket as players see it.
+fn pocket(parameters: &TableParameters, id: PocketId) -> Pocket {
+    let noses = 0.5 * DVec2::new(parameters.length_m, parameters.width_m);
+    let (sx, sy) = match id {
+        PocketId::Hl => (-1.0, 1.0),
+        PocketId::Hr => (-1.0, -1.0),
+        PocketId::Ml | PocketId::Fl => (1.0, 1.0),
+        PocketId::Mr | PocketId::Fr => (1.0, -1.0),
+    };
+    let signs = DVec2::new(sx, sy);
+    if id.is_side() {
+        let half = 0.5 * parameters.side.mouth_m;
+        return Pocket {
+            id,
+            mouth: [DVec2::new(-half, sy * noses.y), DVec2::new(half, sy * noses.y)],
+            centre: signs * plan::side_centre(parameters),
+            radius_m: parameters.side.radius_m,
+            heading: DVec2::new(0.0, sy),
+        };
+    }
+    let cut = parameters.corner.mouth_m * 0.5f64.sqrt();
+    Pocket {
+        id,
+        mouth: [signs * (noses - DVec2::new(cut, 0.0)), signs * (noses - DVec2::new(0.0, cut))],
+        centre: signs * plan::corner_centre(parameters),
+        radius_m: parameters.corner.radius_m,
+        heading: signs * 0.5f64.sqrt(),
+    }
 }
 
 /// The playing area between the noses of the cushions.
