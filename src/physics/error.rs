@@ -62,9 +62,9 @@ pub enum PhysicsError {
         /// √(side² + height²).
         offset: f64,
     },
-    /// A spot or rack has no room.
-    #[error("ball {0} finds no free place on its spot's line")]
-    NoRoom(BallId),
+    /// A rack cannot be placed.
+    #[error(transparent)]
+    Rack(#[from] crate::rack::RackError),
     /// Motion did not end in time.
     #[error("the balls did not come to rest within {limit_s} s; is rolling resistance zero?")]
     NeverRests {

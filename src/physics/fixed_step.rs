@@ -42,7 +42,7 @@ use body::Body;
 use cue_motion::CueMotion;
 use glam::DVec3;
 use ground::Ground;
-use spatial_hash::{Seen, SpatialHash};
+use spatial_hash::{Bounds, Seen, SpatialHash};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -80,6 +80,7 @@ pub struct FixedStep {
     skips: bool,
     ledger: Ledger,
     work: Work,
+    tracks: Option<Vec<Vec<Knot>>>,
     scratch: Scratch,
 }
 
@@ -148,6 +149,7 @@ impl FixedStep {
             skips: true,
             ledger: Ledger::default(),
             work: Work::default(),
+            tracks: None,
             scratch: Scratch {
                 balls: SpatialHash::new(cell_m, 4 * count),
                 seen_balls: Seen::default(),
@@ -172,6 +174,42 @@ impl FixedStep {
     pub fn without_skipping(mut self) -> Self {
         self.skips = false;
         self
+    }
+
+    /// Length of a step [s].
+    pub fn step_s(&self) -> Seconds {
+        self.h
+    }
+
+    /// Radius of a ball [m]; none if nobody knows it.
+    pub fn radius_m(&self, ball: BallId) -> Option<f64> {
+        Some(self.bodies[self.index(ball)?].ball.radius_m)
+    }
+
+    /// Keeps where the balls go from now on; see [`FixedStep::take_tracks`].
+    pub(crate) fn keep_tracks(&mut self) {
+        let time_s = self.grid(self.step);
+        let start = |body: &Body| vec![body.knot(time_s, body.position)];
+        self.tracks = Some(self.bodies.iter().map(start).collect());
+    }
+
+    /// Where each ball went since [`FixedStep::keep_tracks`], in the order of the balls.
+    pub(crate) fn take_tracks(&mut self) -> Vec<Vec<Knot>> {
+        let time_s = self.grid(self.step);
+        let mut tracks = self.tracks.take().unwrap_or_default();
+        for (track, body) in tracks.iter_mut().zip(&self.bodies) {
+            track.push(body.knot(time_s, body.position));
+        }
+        tracks
+    }
+
+    fn track(&mut self) {
+        let Some(tracks) = &mut self.tracks else { return };
+        for (track, body) in tracks.iter_mut().zip(&self.bodies) {
+            if !(body.asleep && body.knots.len() < 2) {
+                track.extend_from_slice(&body.knots);
+            }
+        }
     }
 
     /// Grid time `step` [s].
@@ -199,6 +237,10 @@ impl FixedStep {
                     body.knots.clear();
                 }
                 self.step = target;
+                let end = self.grid(target);
+                if let Some(cue) = &mut self.cue {
+                    cue.end_step(&self.bodies, end);
+                }
                 self.watch_rest();
                 self.hand_over();
                 return Ok(());
@@ -207,6 +249,25 @@ impl FixedStep {
         self.one_step()?;
         self.hand_over();
         Ok(())
+    }
+
+    /// The step up to which no tip comes near a ball that is at rest; the present one if it does
+    /// now, `u64::MAX` if never.
+    fn still_until(&self) -> u64 {
+        let Some(cue) = self.cue.as_ref().filter(|cue| cue.is_solid()) else { return u64::MAX };
+        let start = self.grid(self.step);
+        if cue.stands_from().is_some_and(|end| end <= start) {
+            return u64::MAX;
+        }
+        let mut ahead = cue.clone();
+        ahead.prepare(start, 0.0, self.h);
+        let way = ahead.step_bounds();
+        let near = |body: &Body| {
+            let reach = body.ball.radius_m + tolerance::CLUSTER_M;
+            Bounds::swept(body.position, body.position, reach).overlap(&way)
+        };
+        let meets = self.bodies.iter().any(|body| body.solid() && near(body));
+        if meets { self.step } else { self.step + 1 }
     }
 
     /// The whole step.
@@ -228,6 +289,7 @@ impl FixedStep {
         self.step += 1;
         self.finish(start)?;
         self.watch_rest();
+        self.track();
         Ok(())
     }
 
@@ -241,6 +303,9 @@ impl FixedStep {
             }
             body.path = body::Path { position: body.position, ..Default::default() };
             body.kick = DVec3::ZERO;
+        }
+        if let Some(cue) = &mut self.cue {
+            cue.prepare(start, 0.0, self.h);
         }
     }
 

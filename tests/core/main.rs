@@ -11,3 +11,7 @@ mod table;
 
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+
+/// Scenes that several physics tests share.
+mod physics_scenes;
+mod physics_explore;

@@ -101,6 +101,8 @@ pub struct Body {
     pub force_kick: DVec3,
     /// Rails that it has been away from since it last touched them, a bit each.
     pub clear_rails: u8,
+    /// Rails that it is at, a bit each.
+    pub near_rails: u8,
     /// Rails that it has touched and not parted from, a bit each.
     pub held_rails: u8,
     /// The last step: its start and the contacts within.
@@ -126,6 +128,7 @@ impl Body {
             kick: DVec3::ZERO,
             force_kick: DVec3::ZERO,
             clear_rails: 0,
+            near_rails: 0,
             held_rails: 0,
             knots: SmallVec::new(),
         }

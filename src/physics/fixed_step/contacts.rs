@@ -100,10 +100,10 @@ impl FixedStep {
             })
             .collect();
 
-        if let [touch] = &mut touches[..] {
+        if let ([touch], true) = (&mut touches[..], members.len() == 2) {
             // A pair alone: the closed form. What carries a ball only keeps it from being pressed
             // in, without restitution and, at this short a contact, without friction.
-            let (a, b) = (touch.a, place(other).max(touch.b.unwrap_or(0)));
+            let (a, b) = (0, 1);
             let (mut one, mut two) = (movers[a], movers[b]);
             let Impact { impulse, loss_j, .. } = ball_ball::collide(
                 &mut one,
@@ -300,11 +300,13 @@ impl FixedStep {
 
         self.work.contacts += 1;
         let point = position - normal * self.bodies[index].ball.radius_m;
-        for (surface, speed) in core::iter::once((surface, approach))
-            .chain(met.iter().map(|(normal, s)| (*s, -self.bodies[index].velocity.dot(*normal))))
-        {
+        let before = self.bodies[index].velocity;
+        if let Surface::Cushion(rail) = surface {
+            self.tell_cushion(at, index, rail, point, approach);
+        }
+        for (normal, surface) in &met {
             if let Surface::Cushion(rail) = surface {
-                self.tell_cushion(at, index, rail, point, speed);
+                self.tell_cushion(at, index, *rail, point, -before.dot(*normal));
             }
         }
         self.go_on_from(start, index, tau, &mover);

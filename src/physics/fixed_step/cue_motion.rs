@@ -248,11 +248,10 @@ impl CueMotion {
         self.prepare(start, tau, h);
     }
 
-    /// The end of a step: forgets balls that have parted, and a lead that has died away.
+    /// A step, or several in which nothing happened, end: forgets balls that have parted, and a lead
+    /// that has died away.
     pub fn end_step(&mut self, bodies: &[Body], end: Seconds) {
-        let (tip, _) = self.tip_at(f64::INFINITY.min(
-            self.stretches.last().map_or(0.0, |stretch| stretch.end),
-        ));
+        let tip = self.pose(end).tip;
         self.struck.retain(|struck| {
             let body = &bodies[struck.ball];
             let gap = body.position.distance(tip) - body.ball.radius_m - TIP_RADIUS_M;
@@ -261,12 +260,9 @@ impl CueMotion {
                 && end - struck.since_s <= tolerance::TIP_BLIND_S
         });
         let (offset_m, rate_m_s) = self.lead_at(end);
-        let gone = offset_m.abs() < 1e-9 && rate_m_s.abs() < 1e-9;
-        self.lead = if gone {
-            Lead::default()
-        } else {
-            Lead { time_s: end, offset_m, rate_m_s }
-        };
+        if offset_m.abs() < 1e-9 && rate_m_s.abs() < 1e-9 {
+            self.lead = Lead::default();
+        }
     }
 
     /// Adds everything that decides its future to `hash`.

@@ -93,6 +93,19 @@ impl FixedStep {
         }
     }
 
+    /// Contacts of the tip alone, in order of time.
+    pub(super) fn sweep_tip(&mut self, start: Seconds) {
+        self.scratch.queue.clear();
+        self.predict_tip(None);
+        while let Some(contact) = self.next_contact() {
+            self.work.events += 1;
+            for index in self.resolve(start, &contact) {
+                self.update_bounds(index);
+            }
+            self.predict_tip(None);
+        }
+    }
+
     /// Takes the first contact that still holds.
     fn next_contact(&mut self) -> Option<Contact> {
         let queue = &self.scratch.queue;
