@@ -1,7 +1,39 @@
 //! Physics: what balls do. It knows nothing of rules; it says what happened.
+//!
+//! [`Simulation`] is the front door. Behind it a [`Solver`] moves the balls, and every solver uses
+//! the same contact laws ([`laws`]) with the same numbers ([`Parameters`]).
 
+mod error;
 mod settings;
 mod snapshot;
 
+mod parameters;
+
+pub mod tolerance;
+
+pub mod laws;
+
+pub mod roots;
+
+pub mod spring;
+
+mod ledger;
+mod work;
+
+mod solver;
+
+pub mod fixed_step;
+
+mod shot;
+mod simulation;
+
+pub use error::PhysicsError;
+pub use laws::cue_ball::cue_contact;
+pub use ledger::{Ledger, Momentum};
+pub use parameters::{Contact, Parameters};
 pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
+pub use shot::{Shot, Strike, Trajectory};
+pub use simulation::Simulation;
 pub use snapshot::Snapshot;
+pub use solver::Solver;
+pub use work::Work;

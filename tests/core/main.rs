@@ -21,3 +21,7 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+
+/// Scenes that several physics tests share.
+mod physics_scenes;
+mod physics_explore;

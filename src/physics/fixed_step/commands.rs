@@ -1,0 +1,164 @@
+//! Commands: what a player or the rules want done.
+
+use super::cue_motion::CueMotion;
+use super::{Due, FixedStep, weight_j};
+use crate::ball::{BallPlace, Motion};
+use crate::cue::CuePath;
+use crate::events::{Command, FactKind, TouchedBy, Zone};
+use crate::ids::BallId;
+use crate::physics::{PhysicsError, tolerance};
+use crate::rack;
+use crate::units::Seconds;
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
+
+/// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
+const D_RADIUS: f64 = 11.5 / 70.0;
+
+impl FixedStep {
+    /// Whether a command can be carried out at all.
+    pub(super) fn check_command(&self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
+        let broken = |term| Err(PhysicsError::Command { time_s: at, term });
+        if !at.is_finite() {
+            return broken("time");
+        }
+        match command {
+            Command::MoveCue(path) => {
+                for piece in &path.pieces {
+                    let times = piece.start_s.is_finite() && piece.duration_s.is_finite();
+                    let vectors = [
+                        piece.position,
+                        piece.velocity,
+                        piece.acceleration,
+                        piece.direction,
+                        piece.direction_end,
+                    ];
+                    if !times || !vectors.iter().all(|v| v.is_finite()) {
+                        return broken("cue path");
+                    }
+                }
+                Ok(())
+            }
+            Command::PlaceBall { position_m, .. } if !position_m.is_finite() => broken("position"),
+            Command::PlaceBall { ball, .. } if self.index(*ball).is_none() => {
+                Err(PhysicsError::UnknownBall(*ball))
+            }
+            Command::SpotBalls(balls) => {
+                match balls.iter().find(|ball| self.index(**ball).is_none()) {
+                    Some(ball) => Err(PhysicsError::UnknownBall(*ball)),
+                    None => Ok(()),
+                }
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Carries out what is due at the grid time in hand.
+    pub(super) fn carry_out_commands(&mut self) {
+        while self.commands.front().is_some_and(|due| due.step <= self.step) {
+            let Some(Due { command, .. }) = self.commands.pop_front() else { return };
+            match command {
+                Command::MoveCue(path) => self.move_cue(path),
+                Command::LiftCue => self.cue = None,
+                Command::PlaceBall { ball, position_m, zone } => {
+                    self.place_ball(ball, position_m, zone);
+                }
+                Command::SpotBalls(balls) => balls.iter().for_each(|ball| self.spot_ball(*ball)),
+                // The rules' business.
+                Command::Call(_) | Command::Choose(_) => {}
+            }
+        }
+    }
+
+    fn move_cue(&mut self, path: Arc<CuePath>) {
+        match &mut self.cue {
+            Some(cue) => cue.follow(path),
+            None => self.cue = Some(CueMotion::new(path, self.parameters.cue_coupling_rad_s)),
+        }
+    }
+
+    fn place_ball(&mut self, ball: BallId, place: DVec2, zone: Zone) {
+        let Some(index) = self.index(ball) else { return };
+        let now = self.grid(self.step);
+        let lively = |index: usize| {
+            let body = &self.bodies[index];
+            body.in_play() && body.liveliness() > tolerance::REST_M_S
+        };
+        let moving = (0..self.bodies.len()).any(lively);
+        let ok = self.may_stand(index, place, zone);
+        if ok {
+            self.put_down(index, place);
+        }
+        if moving {
+            self.tell(now, FactKind::BallTouched { ball, by: TouchedBy::Hand });
+        }
+        self.tell(now, FactKind::BallPlaced { ball, zone, ok });
+    }
+
+    /// Whether a ball may be put here: in its zone, on the bed, on no other ball.
+    fn may_stand(&self, index: usize, place: DVec2, zone: Zone) -> bool {
+        let body = &self.bodies[index];
+        let radius = body.ball.radius_m;
+        if let Some(bed) = self.ground.bed {
+            let in_zone = match zone {
+                Zone::Anywhere => true,
+                Zone::Kitchen => place.x <= bed.head_string_x(),
+                Zone::D => {
+                    place.x <= bed.head_string_x()
+                        && place.distance(bed.head_spot()) <= D_RADIUS * bed.width_m
+                }
+            };
+            let over_pocket = self
+                .ground
+                .pockets
+                .iter()
+                .any(|pocket| pocket.centre.distance(place) <= pocket.radius_m);
+            if !in_zone || !bed.holds(place, radius) || over_pocket {
+                return false;
+            }
+        }
+        let centre = place.extend(radius);
+        !self.bodies.iter().enumerate().any(|(other, it)| {
+            other != index
+                && it.solid()
+                && it.position.distance(centre) < radius + it.ball.radius_m
+        })
+    }
+
+    /// Puts a ball down at rest.
+    fn put_down(&mut self, index: usize, place: DVec2) {
+        let (now, g) = (self.grid(self.step), self.parameters.gravity_m_s2);
+        let body = &mut self.bodies[index];
+        if body.in_play() {
+            self.ledger.removed_j += body.mover().kinetic_j() + weight_j(body, g);
+            if body.ball.flags.integrate {
+                self.ledger.momentum.removed += body.velocity * body.ball.mass_kg;
+            }
+        }
+        body.placed = (body.place, now);
+        body.place = BallPlace::OnTable;
+        body.position = place.extend(body.ball.radius_m);
+        body.velocity = DVec3::ZERO;
+        body.angular_velocity = DVec3::ZERO;
+        body.motion = Motion::Rest;
+        body.asleep = false;
+        self.ledger.placed_j += weight_j(body, g);
+        self.touching.retain(|(a, b)| *a != index && *b != index);
+        self.find_supports(index);
+        self.clear_touched_rails(index);
+    }
+
+    /// Puts a ball on its spot, or as near behind it as there is room.
+    fn spot_ball(&mut self, ball: BallId) {
+        let (Some(index), Some(bed)) = (self.index(ball), self.ground.bed) else { return };
+        let radius = self.bodies[index].ball.radius_m;
+        let others = self
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(other, body)| *other != index && body.solid())
+            .map(|(_, body)| (body.position.truncate(), body.ball.radius_m));
+        let place = rack::spot_position(&bed, others, radius);
+        self.put_down(index, place);
+    }
+}

@@ -1,0 +1,227 @@
+//! The smooth part of a step: gravity, springs, and what carries the balls.
+
+use super::FixedStep;
+use super::body::{Body, Path, Support};
+use crate::physics::laws::cloth::{self, Carrying};
+use crate::physics::laws::cluster::{self, Touch};
+use crate::physics::laws::{Impact, Mover};
+use crate::physics::{Integrator, Profile, spring, tolerance};
+use crate::units::Seconds;
+use glam::DVec3;
+use smallvec::SmallVec;
+
+/// A ball's motion under the smooth forces alone, after one step.
+struct Free {
+    displacement: DVec3,
+    velocity: DVec3,
+    angular_velocity: DVec3,
+}
+
+impl FixedStep {
+    /// Gives every moving ball its velocity at the end of the step and its straight path there.
+    pub(super) fn smooth(&mut self) {
+        for index in 0..self.bodies.len() {
+            if self.bodies[index].active() {
+                self.smooth_ball(index);
+            }
+        }
+    }
+
+    fn smooth_ball(&mut self, index: usize) {
+        self.work.force_evaluations += match self.integrator {
+            Integrator::EulerCromer => 1,
+            Integrator::Verlet => 2,
+            Integrator::Rk4 => 4,
+        };
+        let h = self.h;
+        let body = &self.bodies[index];
+        let before = body.mover();
+        let free = self.integrate(body);
+
+        // Work of the smooth forces: impulse times mean velocity.
+        let mass = body.ball.mass_kg;
+        let weighs = body.ball.flags.gravity;
+        let gravity =
+            if weighs { DVec3::NEG_Z * (self.parameters.gravity_m_s2 * h) } else { DVec3::ZERO };
+        let mean = 0.5 * (before.velocity + free.velocity);
+        let force_kick = free.velocity - before.velocity;
+        let spin_kick = free.angular_velocity - before.angular_velocity;
+        let mean_spin = 0.5 * (before.angular_velocity + free.angular_velocity);
+        self.ledger.integration_j += mass * gravity.dot(mean);
+        if body.ball.spring.is_some() {
+            self.ledger.spring_j += mass * (force_kick - gravity).dot(mean)
+                + body.ball.inertia_kg_m2() * spin_kick.dot(mean_spin);
+        }
+        self.ledger.momentum.smooth += mass * force_kick;
+
+        // What carries the ball takes the normal part and gives friction. The paper has no such
+        // thing: there a lying ball falls into the bed and is thrown back, step by step.
+        let mut mover =
+            Mover { velocity: free.velocity, angular_velocity: free.angular_velocity, ..before };
+        let carriers = if self.profile == Profile::Standard {
+            self.carriers(body, free.velocity, force_kick)
+        } else {
+            SmallVec::new()
+        };
+        let loss_j = self.carry(&mut mover, &carriers);
+        self.ledger.cloth_j += loss_j;
+        self.ledger.momentum.table += (mover.velocity - free.velocity) * mass;
+
+        // The path. A force that acts during the whole step moves the ball by half of its kick; in
+        // Euler-Cromer by all of it.
+        let change = mover.velocity - free.velocity;
+        let rests = before.velocity == DVec3::ZERO && mover.velocity == DVec3::ZERO;
+        let mut path_velocity = match self.integrator {
+            _ if rests => DVec3::ZERO,
+            Integrator::EulerCromer => mover.velocity,
+            Integrator::Verlet | Integrator::Rk4 => free.displacement / h + 0.5 * change,
+        };
+        for support in &carriers {
+            path_velocity -= support.normal * path_velocity.dot(support.normal).min(0.0);
+        }
+
+        let body = &mut self.bodies[index];
+        body.kick = mover.velocity - before.velocity;
+        body.force_kick = force_kick;
+        body.take(&mover);
+        body.path = Path { position: body.position, velocity: path_velocity, ..Path::default() };
+    }
+
+    /// The surfaces that carry a ball in this step: it touches them, and all that presses it into
+    /// them is this step's force. A ball that comes faster is an impact.
+    fn carriers(&self, body: &Body, velocity: DVec3, kick: DVec3) -> SmallVec<[Support; 2]> {
+        body.supports
+            .iter()
+            .filter(|support| {
+                let approach = -velocity.dot(support.normal);
+                let pressed = (-kick.dot(support.normal)).max(0.0);
+                0.0 <= approach && approach <= (1.01 * pressed).max(tolerance::LANDING_M_S)
+            })
+            .copied()
+            .collect()
+    }
+
+    /// Friction and normal impulses of all that carries a ball; returns the energy lost [J].
+    fn carry(&self, mover: &mut Mover, carriers: &[Support]) -> f64 {
+        match carriers {
+            [] => 0.0,
+            [support] => {
+                let law = self.carrying(support);
+                let Impact { loss_j, .. } = cloth::carry(mover, support.normal, &law, self.h);
+                loss_j
+            }
+            several => {
+                let mut touches: SmallVec<[Touch; 4]> = several
+                    .iter()
+                    .map(|support| {
+                        let law = self.parameters.surface(support.surface);
+                        Touch { carries: true, ..Touch::new(0, None, support.normal, law) }
+                    })
+                    .collect();
+                cluster::resolve(core::slice::from_mut(mover), &mut touches);
+                let mut loss_j: f64 = touches.iter().map(|touch| touch.loss_j).sum();
+
+                // The one that carries most decides how the ball rolls.
+                let pressed = |touch: &Touch| touch.impulse.dot(touch.normal);
+                let main = (0..several.len())
+                    .max_by(|a, b| pressed(&touches[*a]).total_cmp(&pressed(&touches[*b])));
+                if let Some(main) = main {
+                    let (touch, support) = (&touches[main], &several[main]);
+                    let slip = mover.surface_velocity(touch.normal);
+                    let slip = slip - touch.normal * slip.dot(touch.normal);
+                    let rolls = slip.length() <= tolerance::ROLLING_SLIP_M_S;
+                    let law = self.carrying(support);
+                    let (normal, impulse) = (touch.normal, pressed(touch));
+                    let rolled = f64::from(rolls);
+                    loss_j += cloth::resist(mover, normal, impulse, rolled, &law, self.h);
+                }
+                loss_j
+            }
+        }
+    }
+
+    fn carrying(&self, support: &Support) -> Carrying {
+        Carrying {
+            friction: self.parameters.surface(support.surface).friction,
+            rolling_resistance: self.parameters.rolling_resistance,
+            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
+        }
+    }
+
+    /// One step of the chosen integrator under gravity and the ball's spring (paper, section 2.3).
+    ///
+    /// Contacts are the same for all; between them the forces are constant unless there is a spring,
+    /// so a finer integrator gains little on a billiard table: what is lost lies in the steps that
+    /// have a contact.
+    fn integrate(&self, body: &Body) -> Free {
+        let (h, v, w) = (self.h, body.velocity, body.angular_velocity);
+        let start = (body.position, v, w);
+        let force = |dt: Seconds, position: DVec3, velocity: DVec3, spin: DVec3| {
+            self.acceleration(body, dt, position, velocity, spin)
+        };
+        let (x0, _, _) = start;
+        match self.integrator {
+            Integrator::EulerCromer => {
+                let (a, b) = force(0.0, x0, v, w);
+                let velocity = v + a * h;
+                Free { displacement: velocity * h, velocity, angular_velocity: w + b * h }
+            }
+            Integrator::Verlet => {
+                let (a0, b0) = force(0.0, x0, v, w);
+                let displacement = v * h + a0 * (0.5 * h * h);
+                let (a1, b1) = force(h, x0 + displacement, v + a0 * h, w + b0 * h);
+                Free {
+                    displacement,
+                    velocity: v + (a0 + a1) * (0.5 * h),
+                    angular_velocity: w + (b0 + b1) * (0.5 * h),
+                }
+            }
+            Integrator::Rk4 => {
+                let half = 0.5 * h;
+                let (a1, b1) = force(0.0, x0, v, w);
+                let (v2, w2) = (v + a1 * half, w + b1 * half);
+                let (a2, b2) = force(half, x0 + v * half, v2, w2);
+                let (v3, w3) = (v + a2 * half, w + b2 * half);
+                let (a3, b3) = force(half, x0 + v2 * half, v3, w3);
+                let (v4, w4) = (v + a3 * h, w + b3 * h);
+                let (a4, b4) = force(h, x0 + v3 * h, v4, w4);
+                Free {
+                    displacement: (v + 2.0 * v2 + 2.0 * v3 + v4) * (h / 6.0),
+                    velocity: v + (a1 + 2.0 * a2 + 2.0 * a3 + a4) * (h / 6.0),
+                    angular_velocity: w + (b1 + 2.0 * b2 + 2.0 * b3 + b4) * (h / 6.0),
+                }
+            }
+        }
+    }
+
+    /// Acceleration and angular acceleration of a ball in the given state, `dt` into the step.
+    fn acceleration(
+        &self,
+        body: &Body,
+        dt: Seconds,
+        position: DVec3,
+        velocity: DVec3,
+        spin: DVec3,
+    ) -> (DVec3, DVec3) {
+        let weight = if body.ball.flags.gravity {
+            DVec3::NEG_Z * self.parameters.gravity_m_s2
+        } else {
+            DVec3::ZERO
+        };
+        match &body.ball.spring {
+            None => (weight, DVec3::ZERO),
+            Some(spring) => {
+                let orientation = spring::turned(body.orientation, body.angular_velocity, dt);
+                let (linear, angular) = spring::acceleration(
+                    &body.ball,
+                    spring,
+                    position,
+                    velocity,
+                    orientation,
+                    spin,
+                );
+                (weight + linear, angular)
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! A stroke in the language of players, and what came of it.
+
+use super::fixed_step::{Knot, between};
+use super::{Ledger, PhysicsError, Simulation, Work};
+use crate::ball::BallState;
+use crate::cue::{CuePath, CuePiece, TIP_RADIUS_M};
+use crate::events::Fact;
+use crate::ids::BallId;
+use crate::units::Seconds;
+use glam::DVec3;
+
+/// The tip sets out this far from the ball [m].
+const RUN_UP_M: f64 = 0.005;
+
+/// After the contact the tip brakes for this long, then the cue is lifted [s].
+const FOLLOW_THROUGH_S: Seconds = 0.02;
+
+/// A stroke at the cue ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Strike {
+    /// Speed of the tip at the contact [m/s].
+    pub speed_m_s: f64,
+    /// Direction on the table [°]: 0 towards the foot (+x), 90 to the left (+y).
+    pub azimuth_deg: f64,
+    /// How steeply the cue points down [°].
+    pub elevation_deg: f64,
+    /// Where the tip hits the ball, from its middle to the right as the player sees it, over the
+    /// ball's radius.
+    pub side_offset: f64,
+    /// The same upwards: positive makes follow, negative draw.
+    pub height_offset: f64,
+}
+
+impl Strike {
+    /// A level stroke through the middle, towards the foot, at 1 m/s.
+    pub const CENTRE: Strike = Strike {
+        speed_m_s: 1.0,
+        azimuth_deg: 0.0,
+        elevation_deg: 0.0,
+        side_offset: 0.0,
+        height_offset: 0.0,
+    };
+
+    /// Unit vector along the shaft, from butt to tip.
+    pub fn direction(&self) -> DVec3 {
+        let radians = |degrees: f64| degrees * (core::f64::consts::PI / 180.0);
+        let (sin_a, cos_a) = libm::sincos(radians(self.azimuth_deg));
+        let (sin_e, cos_e) = libm::sincos(radians(self.elevation_deg));
+        DVec3::new(cos_e * cos_a, cos_e * sin_a, -sin_e)
+    }
+
+    /// The path of the tip that makes this stroke at a ball at `ball` [m] of radius `radius_m`, from
+    /// `start_s` on: straight along the shaft at constant speed, and braked after the contact.
+    pub fn path(
+        &self,
+        ball: DVec3,
+        radius_m: f64,
+        start_s: Seconds,
+    ) -> Result<CuePath, PhysicsError> {
+        let Strike { speed_m_s: speed, side_offset: side, height_offset: height, .. } = *self;
+        if !(speed.is_finite() && 0.0 < speed) {
+            let allowed = "the tip's speed must be positive";
+            return Err(PhysicsError::Setting { key: "speed_m_s", value: speed, allowed });
+        }
+        for (key, value) in
+            [("azimuth_deg", self.azimuth_deg), ("elevation_deg", self.elevation_deg)]
+        {
+            if !value.is_finite() {
+                let allowed = "an angle must be a number";
+                return Err(PhysicsError::Setting { key, value, allowed });
+            }
+        }
+        let offset = (side * side + height * height).sqrt();
+        if !(offset < 1.0) {
+            return Err(PhysicsError::Miss { offset });
+        }
+
+        let direction = self.direction();
+        let radians = self.azimuth_deg * (core::f64::consts::PI / 180.0);
+        let (sin, cos) = libm::sincos(radians);
+        let right = DVec3::new(sin, -cos, 0.0);
+        let up = right.cross(direction);
+        let behind = (1.0 - offset * offset).sqrt();
+        // From the ball's centre to where the tip's centre is at the contact.
+        let outwards = right * side + up * height - direction * behind;
+        let contact = ball + outwards * (radius_m + TIP_RADIUS_M);
+
+        let run_up_s = RUN_UP_M / speed;
+        let velocity = direction * speed;
+        let piece = |start_s, duration_s, position, acceleration| CuePiece {
+            start_s,
+            duration_s,
+            position,
+            velocity,
+            acceleration,
+            direction,
+            direction_end: direction,
+        };
+        let braking = velocity * (-1.0 / FOLLOW_THROUGH_S);
+        let pieces = [
+            piece(start_s, run_up_s, contact - direction * RUN_UP_M, DVec3::ZERO),
+            piece(start_s + run_up_s, FOLLOW_THROUGH_S, contact, braking),
+        ];
+        Ok(CuePath { solid: true, pieces: pieces.into_iter().collect() })
+    }
+}
+
+/// What came of a stroke.
+#[derive(Debug, Clone)]
+pub struct Shot {
+    /// What happened, in time order.
+    pub facts: Vec<Fact>,
+    /// When everything had settled [s].
+    pub end_s: Seconds,
+    /// Energy and momentum.
+    pub ledger: Ledger,
+    /// What was computed.
+    pub work: Work,
+    /// The world after the shot.
+    pub end: Simulation,
+    pub(super) ids: Vec<BallId>,
+    pub(super) tracks: Vec<Vec<Knot>>,
+}
+
+impl Shot {
+    /// Where a ball went; empty if nobody knows it.
+    pub fn trajectory(&self, ball: BallId) -> Trajectory<'_> {
+        let place = self.ids.binary_search(&ball).ok();
+        let knots = place.and_then(|place| self.tracks.get(place)).map_or(&[][..], |knots| knots);
+        Trajectory { ball, knots }
+    }
+}
+
+/// The way of one ball: straight from grid time to grid time, and broken where it touched something.
+#[derive(Debug, Clone, Copy)]
+pub struct Trajectory<'a> {
+    ball: BallId,
+    knots: &'a [Knot],
+}
+
+impl<'a> Trajectory<'a> {
+    /// The state at a time; none outside of the shot.
+    pub fn at(&self, time_s: Seconds) -> Option<BallState> {
+        let (first, last) = (self.knots.first()?, self.knots.last()?);
+        if !(first.time_s <= time_s && time_s <= last.time_s) {
+            return None;
+        }
+        let next = self.knots.partition_point(|knot| knot.time_s <= time_s);
+        let from = &self.knots[next.saturating_sub(1)];
+        let to = self.knots.get(next).unwrap_or(from);
+        Some(between(self.ball, from, to, time_s))
+    }
+
+    /// States every `dt` seconds, from the start to the end of the shot.
+    pub fn every(self, dt: Seconds) -> impl Iterator<Item = BallState> + 'a {
+        let start = self.knots.first().map_or(0.0, |knot| knot.time_s);
+        let counts = if dt > 0.0 { 0..u64::MAX } else { 0..0 };
+        counts.map_while(move |n| self.at(start + n as f64 * dt))
+    }
+}

@@ -1,0 +1,74 @@
+//! Every tolerance of the solvers: its unit, what it means, and what changing it does.
+
+use crate::units::Seconds;
+
+/// Balls whose gap is at most this are struck as one cluster [m]. At 10 m/s phenolic balls compress
+/// by about 0.8 mm, so gaps below 0.1 mm close before the first pair has parted. Smaller: a racked
+/// break becomes a cascade of pairs that amplifies micrometres of jitter to metres per second.
+pub const CLUSTER_M: f64 = 1e-4;
+
+/// A contact closes if its normal speed exceeds this [m/s]; prediction asks for twice as much, so
+/// that a resolved contact is not predicted again at once. Larger: balls creep into each other.
+pub const CLOSING_M_S: f64 = 1e-5;
+
+/// Below this approach speed two balls, or a ball and a cushion, stay together [m/s]. Larger:
+/// slow kisses die.
+pub const STICKY_M_S: f64 = 1e-4;
+
+/// Below this approach speed a ball that lands stays down [m/s]. Larger: the last hops are lost;
+/// smaller: more of them are computed. A hop of 5 mm/s is a micrometre high.
+pub const LANDING_M_S: f64 = 5e-3;
+
+/// A surface no farther than this carries the ball [m]. Larger: hops of that height are lost.
+pub const SUPPORT_M: f64 = 1e-6;
+
+/// Overlaps deeper than this are pushed out [m]; below it they are rounding.
+pub const PUSH_OUT_M: f64 = 1e-9;
+
+/// A ball has left a rail, a ball or the tip once it is farther away than this [m]. Larger: a
+/// second contact counts as the same one.
+pub const APART_M: f64 = 1e-4;
+
+/// A repeated contact that has not parted in between is told only above this normal speed [m/s];
+/// otherwise a ball lying at a cushion would tell it at every step.
+pub const REPEATED_CONTACT_M_S: f64 = 1e-2;
+
+/// A ball slower than this, spin times radius included, is at rest for the game [m/s]. It changes
+/// no motion, only when [`crate::events::FactKind::Settled`] is told.
+pub const REST_M_S: f64 = 1e-3;
+
+/// How long everything must be at rest before it has settled [s].
+pub const SETTLE_S: Seconds = 0.2;
+
+/// Slip below this is rolling when motion is named [m/s]. It changes no motion.
+pub const ROLLING_SLIP_M_S: f64 = 1e-4;
+
+/// How long a leather tip stays on a ball [s]; a cue ball that meets another ball within this time
+/// after the stroke was pushed. Alciatore, high-speed videos: about 1 ms.
+pub const TIP_CONTACT_S: Seconds = 1e-3;
+
+/// The tip leaves a ball alone that it has struck and not parted from, no longer than this [s]: a
+/// ball that the bed throws back against the tip is one stroke.
+pub const TIP_BLIND_S: Seconds = 0.05;
+
+/// A cluster's rounds of impulses; later rounds have no restitution. It bounds the work.
+pub const CLUSTER_ROUNDS: usize = 40;
+
+/// Relative change of impulses at which the iteration of one round ends.
+pub const CLUSTER_RELATIVE: f64 = 1e-12;
+
+/// Iterations of one round at most. It bounds the work of large clusters.
+pub const CLUSTER_ITERATIONS: usize = 200;
+
+/// Contacts of one ball within one step before they lose their restitution: a ball that is caught
+/// between surfaces comes to rest there instead of bouncing for ever.
+pub const CONTACTS_PER_STEP: u32 = 16;
+
+/// Two normals closer than this [rad] are one surface; faces so close to one plane [m] lie in it.
+pub const COPLANAR: f64 = 1e-9;
+
+/// Two balls, or a ball and a plane, may overlap by this at the start [m]: rounding of a tight rack.
+pub const START_OVERLAP_M: f64 = 1e-6;
+
+/// A ball that falls this far below everything has left the table [m].
+pub const ABYSS_M: f64 = 1.0;
