@@ -9,6 +9,9 @@ mod ai;
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
+mod physics_explore;
+/// Scenes that several physics tests share.
+mod physics_scenes;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
@@ -21,7 +24,3 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
-
-/// Scenes that several physics tests share.
-mod physics_scenes;
-mod physics_explore;
