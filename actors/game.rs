@@ -133,8 +133,7 @@ pub fn play_headless(stage: &Stage, how: Headless) -> Result<(Finished, Tally), 
             let record = how.record.map(|path| (path, stage.header()));
             let physics_thread = stage.scene.physics.thread;
             let base = runtime::Setup::headless(LIMIT);
-            let setup =
-                runtime::Setup { input, record, verify, observers, physics_thread, ..base };
+            let setup = runtime::Setup { input, record, verify, observers, physics_thread, ..base };
             runtime::run(cast, setup)?
         }
         Driver::Lockstep => {

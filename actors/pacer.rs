@@ -7,6 +7,7 @@
 use crate::conductor::{Conductor, Progress, Quit, RunError, Step};
 use hapticbillard::tick::{End, Finished};
 use hapticbillard::units::Tick;
+use kameo::error::SendError;
 use kameo::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -87,9 +88,9 @@ async fn pace(start: (Instant, Tick), tick: Tick, rate: f64) -> (Instant, Tick) 
     start
 }
 
-fn gone<M, E: std::fmt::Debug>(error: kameo::error::SendError<M, E>) -> RunError
+fn gone<M, E: std::fmt::Debug>(error: SendError<M, E>) -> RunError
 where
-    kameo::error::SendError<M, E>: std::fmt::Display,
+    SendError<M, E>: std::fmt::Display,
 {
     RunError::Gone { actor: "conductor", tick: Tick(0), reason: error.to_string() }
 }

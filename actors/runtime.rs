@@ -145,8 +145,8 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         }
     };
 
-    let events = EventManager::new(seats, setup.sinks)
-        .map_err(|error| RunError::Delivery(error.into()))?;
+    let events =
+        EventManager::new(seats, setup.sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
     let events = spawn(events);
     let below = Below {

@@ -65,10 +65,11 @@ impl Cast {
         let balls = scene.build_balls(&table)?;
         let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
         let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
-        let simulation = Simulation::from_parts(table.clone(), balls, &scene.physics)?;
-        let referee = scene.rules.as_ref().map(|rules| {
-            Referee::new(rules.game).first_player(rules.first_player)
-        });
+        let simulation = Simulation::from_parts(&table, balls, &scene.physics)?;
+        let referee = scene
+            .rules
+            .as_ref()
+            .map(|rules| Referee::new(rules.game).first_player(rules.first_player));
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
             if section.kind != PlayerKind::Paper {

@@ -50,7 +50,7 @@ impl StateHash {
 }
 
 /// A finished [`StateHash`]; 16 hexadecimal digits in text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Digest(pub u64);
 
 impl fmt::Display for Digest {

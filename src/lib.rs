@@ -45,4 +45,8 @@ pub mod renderer;
 
 pub mod tally;
 
+pub mod cast;
+
+pub mod lockstep;
+
 pub mod replay;

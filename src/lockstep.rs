@@ -5,7 +5,7 @@ use crate::cast::Cast;
 use crate::event_manager::{EventManager, QueueFull, SubscriberId};
 use crate::events::{Event, Source};
 use crate::hash::{Digest, StateHash};
-use crate::physics::{PhysicsError, Simulation, Snapshot, Solver};
+use crate::physics::{PhysicsError, Simulation, Snapshot};
 use crate::replay::{Divergence, Line, Recording, TickHash};
 use crate::tick::{
     self, Advanced, Clock, Delivered, Finished, FrameSource, Inflow, Next, Pace, Participant,

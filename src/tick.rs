@@ -13,6 +13,10 @@
 //! [`Clock::next`] says and reports back. A jump leaves out ticks in which nobody is called; it
 //! changes no bit, because physics may be cut anywhere.
 
+mod world;
+
+pub use world::{Advanced, advance, coast};
+
 use crate::event_manager::Publication;
 use crate::events::{Command, Event, Fact, FactSet, Source, Stamped, Topics};
 use crate::hash::StateHash;

@@ -185,7 +185,13 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
         writeln!(
             out,
             "{} {a} : {b} {} in {} games, {} drawn; {} wins {:.0} to {:.0} % (95 %)",
-            names[0], names[1], args.games, summary.draws, names[0], low * 100.0, high * 100.0
+            names[0],
+            names[1],
+            args.games,
+            summary.draws,
+            names[0],
+            low * 100.0,
+            high * 100.0
         )?;
     }
     Ok(if summary.stalled == 0 { Status::Success } else { Status::CheckFailed })
@@ -266,11 +272,15 @@ mod tests {
     fn results_come_in_order_whoever_is_first() {
         let mut seen = Vec::new();
         let slow = |game: u32| (0..(50 - game) * 2000).fold(game, |a, b| a.wrapping_mul(31) ^ b);
-        in_order(50, |game| (slow(game), game).1, |game, result| {
-            assert_eq!(game, result);
-            seen.push(game);
-            Ok(())
-        })
+        in_order(
+            50,
+            |game| (slow(game), game).1,
+            |game, result| {
+                assert_eq!(game, result);
+                seen.push(game);
+                Ok(())
+            },
+        )
         .unwrap();
         assert_eq!(seen, (0..50).collect::<Vec<_>>());
     }

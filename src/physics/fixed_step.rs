@@ -28,8 +28,7 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work,
-    tolerance,
+    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;

@@ -60,7 +60,8 @@ impl Mover {
 
     /// ½ m v² + ½ I ω² [J]; zero for a ball that does not move.
     pub fn kinetic_j(&self) -> f64 {
-        let part = |square: f64, inverse: f64| if inverse > 0.0 { 0.5 * square / inverse } else { 0.0 };
+        let part =
+            |square: f64, inverse: f64| if inverse > 0.0 { 0.5 * square / inverse } else { 0.0 };
         part(self.velocity.length_squared(), self.inverse_mass)
             + part(self.angular_velocity.length_squared(), self.inverse_inertia)
     }

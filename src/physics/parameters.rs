@@ -150,8 +150,7 @@ impl Parameters {
                 return Err(Setting { key, value, allowed: positive });
             }
         }
-        for (key, value) in
-            [("cue mass", self.cue_mass_kg), ("cue end mass", self.cue_end_mass_kg)]
+        for (key, value) in [("cue mass", self.cue_mass_kg), ("cue end mass", self.cue_end_mass_kg)]
         {
             if !(value.is_finite() && 0.0 < value) {
                 return Err(Setting { key, value, allowed: "must be more than 0" });

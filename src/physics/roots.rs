@@ -125,8 +125,7 @@ mod tests {
                 let (distance, acceleration) = (0.0392, DVec3::new(80.0, -3.0, 5.0));
                 let end = tangent * slide - normal * speed;
                 let start = end - acceleration * time;
-                let offset =
-                    normal * distance - start * time - 0.5 * acceleration * (time * time);
+                let offset = normal * distance - start * time - 0.5 * acceleration * (time * time);
                 let found = curved(offset, start, acceleration, distance, 4e-3);
                 assert!(found.is_some_and(|t| (t - time).abs() < 1e-9), "{time} {found:?}");
                 let offset = normal * distance - end * time;

@@ -92,7 +92,8 @@ mod tests {
                 let whole = propagator(omega, damping, 0.002);
                 for row in 0..2 {
                     for column in 0..2 {
-                        let product = half[row][0] * half[0][column] + half[row][1] * half[1][column];
+                        let product =
+                            half[row][0] * half[0][column] + half[row][1] * half[1][column];
                         let scale = whole[row][column].abs().max(half[row][column].abs()).max(1e-3);
                         assert!((product - whole[row][column]).abs() < 1e-10 * scale);
                     }

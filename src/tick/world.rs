@@ -2,7 +2,7 @@
 
 use crate::events::{Command, Fact, FactSet};
 use crate::hash::{Digest, StateHash};
-use crate::physics::{PhysicsError, Simulation, Snapshot, Solver};
+use crate::physics::{PhysicsError, Simulation, Snapshot};
 use crate::units::Tick;
 use std::sync::Arc;
 

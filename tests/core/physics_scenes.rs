@@ -35,11 +35,7 @@ pub fn step(step_ms: f64) -> PhysicsSettings {
 }
 
 /// A world with standard parameters.
-pub fn world(
-    table: &Table,
-    balls: &[(Ball, BallState)],
-    settings: &PhysicsSettings,
-) -> Simulation {
+pub fn world(table: &Table, balls: &[(Ball, BallState)], settings: &PhysicsSettings) -> Simulation {
     Simulation::from_parts(table, balls.to_vec(), settings).unwrap()
 }
 

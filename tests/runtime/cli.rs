@@ -148,8 +148,8 @@ fn a_failing_scenario_exits_with_1() {
         format!(
             "[{{\"id\":\"A\",\"ruleset\":\"free_play\",\"state\":{{\"player\":1,\"shot\":\
              \"normal\",\"on_table\":[\"1\"]}},\"events\":[{{\"t\":0,\"e\":\"tip\",\"ball\":\
-             \"0\"}},{{\"t\":1,\"e\":\"settle\"}}],\"expect\":{{\"legal\":{legal},\"turn\":\"continue\",\
-             \"next_player\":1}}}}]"
+             \"0\"}},{{\"t\":1,\"e\":\"settle\"}}],\"expect\":{{\"legal\":{legal},\
+             \"turn\":\"continue\",\"next_player\":1}}}}]"
         )
     };
     for (legal, code) in [(true, 0), (false, 1)] {

@@ -119,9 +119,7 @@ impl FixedStep {
         }
         let centre = place.extend(radius);
         !self.bodies.iter().enumerate().any(|(other, it)| {
-            other != index
-                && it.solid()
-                && it.position.distance(centre) < radius + it.ball.radius_m
+            other != index && it.solid() && it.position.distance(centre) < radius + it.ball.radius_m
         })
     }
 

@@ -151,8 +151,8 @@ impl FixedStep {
             let impulse = touch.impulse.dot(*normal);
             if impulse > 0.0 {
                 self.work.contacts += 1;
-                let inverse = movers[touch.a].inverse_mass
-                    + touch.b.map_or(0.0, |b| movers[b].inverse_mass);
+                let inverse =
+                    movers[touch.a].inverse_mass + touch.b.map_or(0.0, |b| movers[b].inverse_mass);
                 let speed = impulse * inverse / (1.0 + touch.restitution);
                 let at = self.bodies[*a].path.at(tau) - *normal * self.bodies[*a].ball.radius_m;
                 self.tell_collision(start + tau, *a, *b, at, speed);
@@ -403,16 +403,19 @@ impl FixedStep {
         let body = &self.bodies[index];
         (0..self.bodies.len()).any(|place| {
             let other = &self.bodies[place];
-            place != index && other.solid() && self.gap(index, place, tau) > tolerance::CLUSTER_M && {
-                crate::physics::roots::straight(
-                    body.path.position - other.path.at(tau),
-                    body.path.velocity - other.path.velocity,
-                    body.ball.radius_m + other.ball.radius_m,
-                    tolerance::TIP_CONTACT_S,
-                    0.0,
-                )
-                .is_some()
-            }
+            place != index
+                && other.solid()
+                && self.gap(index, place, tau) > tolerance::CLUSTER_M
+                && {
+                    crate::physics::roots::straight(
+                        body.path.position - other.path.at(tau),
+                        body.path.velocity - other.path.velocity,
+                        body.ball.radius_m + other.ball.radius_m,
+                        tolerance::TIP_CONTACT_S,
+                        0.0,
+                    )
+                    .is_some()
+                }
         })
     }
 }

@@ -1,10 +1,10 @@
 //! The end of a step: where everything is, what carries it, and what follows from that.
 
+use super::FixedStep;
 use super::body::{Body, Support};
 use super::narrow;
 use super::spatial_hash::Bounds;
 use super::tell::rail_bit;
-use super::FixedStep;
 use crate::ball::BallPlace;
 use crate::events::FactKind;
 use crate::mesh::Surface;
@@ -48,7 +48,12 @@ impl FixedStep {
     }
 
     /// Everything that depends on where a ball is now.
-    fn settle_down(&mut self, index: usize, start: Seconds, end: Seconds) -> Result<(), PhysicsError> {
+    fn settle_down(
+        &mut self,
+        index: usize,
+        start: Seconds,
+        end: Seconds,
+    ) -> Result<(), PhysicsError> {
         self.find_supports(index);
         let g = self.parameters.gravity_m_s2;
         let body = &mut self.bodies[index];
@@ -218,9 +223,10 @@ impl FixedStep {
         let (position, radius) = (body.position, body.ball.radius_m);
         let (h, g) = (self.h, self.parameters.gravity_m_s2);
         let rises = body.velocity.length_squared() >= 2.0 * g * -position.z;
-        let pocket = ground.pockets.iter().find(|pocket| {
-            pocket.centre.distance(position.truncate()) <= pocket.radius_m + radius
-        });
+        let pocket = ground
+            .pockets
+            .iter()
+            .find(|pocket| pocket.centre.distance(position.truncate()) <= pocket.radius_m + radius);
         if let Some(pocket) = pocket.filter(|_| position.z < -radius && !rises) {
             self.bodies[index].path.position = position;
             self.bodies[index].path.velocity = DVec3::ZERO;

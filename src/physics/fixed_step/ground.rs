@@ -87,9 +87,9 @@ fn triangles(mesh: &Mesh) -> Vec<Triangle> {
         let key = [normal.x, normal.y, normal.z, offset].map(|x| (x * 1e6).round() as i64);
         let next = patches.len() as u32;
         let found = *patches.entry((key, face.surface)).or_insert((next, normal, offset));
-        let flat = corners.iter().all(|corner| {
-            (found.1.dot(*corner) - found.2).abs() <= tolerance::COPLANAR
-        });
+        let flat = corners
+            .iter()
+            .all(|corner| (found.1.dot(*corner) - found.2).abs() <= tolerance::COPLANAR);
         // Nearly, but not quite, in the patch's plane: a patch of its own.
         let (patch, normal, offset) =
             if flat { found } else { (u32::MAX - index as u32, normal, offset) };

@@ -73,7 +73,8 @@ pub fn first_contact(
     slowest: f64,
 ) -> Option<(Seconds, DVec3)> {
     let height = face.normal.dot(centre) - face.offset;
-    let (normal, height) = if height < 0.0 { (-face.normal, -height) } else { (face.normal, height) };
+    let (normal, height) =
+        if height < 0.0 { (-face.normal, -height) } else { (face.normal, height) };
     let speed = velocity.dot(normal);
     if height >= radius_m && height + speed * horizon >= radius_m {
         return None;

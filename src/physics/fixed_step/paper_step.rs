@@ -94,14 +94,9 @@ impl FixedStep {
 
         // When they touched: straight back along their paths.
         let from = one.path.start.max(two.path.start);
-        let touched = roots::straight(
-            one.path.at(from) - two.path.at(from),
-            v - w,
-            reach,
-            h - from,
-            0.0,
-        )
-        .map_or(from, |time| from + time);
+        let touched =
+            roots::straight(one.path.at(from) - two.path.at(from), v - w, reach, h - from, 0.0)
+                .map_or(from, |time| from + time);
         let at = if self.back_dating { touched } else { h };
         let normal = (one.path.at(at) - two.path.at(at)).normalize_or(DVec3::X);
         let (p, q) = (one.mover(), two.mover());
@@ -168,7 +163,8 @@ impl FixedStep {
             // Each ball's share of the depth is that of its change of normal velocity.
             let change = (mover.velocity - old.velocity).dot(normal);
             let speed = old.velocity.dot(normal);
-            let share = if speed != 0.0 { (change / speed).abs() / (1.0 + restitution) } else { 0.0 };
+            let share =
+                if speed != 0.0 { (change / speed).abs() / (1.0 + restitution) } else { 0.0 };
             let out = normal * change.signum() * (1.0 + restitution) * depth * share.min(1.0);
             path.position = path.at(h) + out;
             path.start = h;

@@ -212,14 +212,8 @@ impl FixedStep {
             None => (weight, DVec3::ZERO),
             Some(spring) => {
                 let orientation = spring::turned(body.orientation, body.angular_velocity, dt);
-                let (linear, angular) = spring::acceleration(
-                    &body.ball,
-                    spring,
-                    position,
-                    velocity,
-                    orientation,
-                    spin,
-                );
+                let (linear, angular) =
+                    spring::acceleration(&body.ball, spring, position, velocity, orientation, spin);
                 (weight + linear, angular)
             }
         }

@@ -250,14 +250,8 @@ impl FixedStep {
                 continue;
             }
             self.work.face_tests += 1;
-            let found = narrow::first_contact(
-                triangle,
-                position,
-                velocity,
-                radius,
-                horizon,
-                SLOWEST_M_S,
-            );
+            let found =
+                narrow::first_contact(triangle, position, velocity, radius, horizon, SLOWEST_M_S);
             if let Some((time, normal)) = found {
                 self.push_contact(start + time, index, Partner::Face(*face), normal);
             }

@@ -74,10 +74,7 @@ impl FixedStep {
             return;
         }
         let ball = body.ball.id;
-        self.tell(
-            time_s,
-            FactKind::CushionHit { ball, rail, onset, position_m, normal_speed_m_s },
-        );
+        self.tell(time_s, FactKind::CushionHit { ball, rail, onset, position_m, normal_speed_m_s });
     }
 
     /// A ball leaves play at `tau` of the step: into a pocket, or off the table.

@@ -24,7 +24,12 @@ pub fn slip_velocity(
 
 /// How long a ball slides until it rolls [s]: t = |u| / (μ g k), with k = 1 + m R²/I, 7/2 for a
 /// solid sphere. On a level bed the slip keeps its direction, so the path is a parabola.
-pub fn sliding_time(slip_m_s: f64, friction: f64, gravity_m_s2: f64, inertia_factor: f64) -> Seconds {
+pub fn sliding_time(
+    slip_m_s: f64,
+    friction: f64,
+    gravity_m_s2: f64,
+    inertia_factor: f64,
+) -> Seconds {
     slip_m_s / (friction * gravity_m_s2 * (1.0 + 1.0 / inertia_factor))
 }
 
@@ -40,10 +45,7 @@ pub fn slide(
 ) -> (DVec3, DVec3) {
     let slip = slip_velocity(velocity, angular_velocity, radius_m, DVec3::Z);
     let change = -slip.normalize_or_zero() * (deceleration_m_s2 * dt);
-    (
-        velocity + change,
-        angular_velocity - DVec3::Z.cross(change) / (inertia_factor * radius_m),
-    )
+    (velocity + change, angular_velocity - DVec3::Z.cross(change) / (inertia_factor * radius_m))
 }
 
 /// What a surface does to a ball that it carries, over one step.
@@ -159,8 +161,7 @@ mod tests {
     #[test]
     fn a_ball_at_rest_stays_at_rest_to_the_last_bit() {
         let h = 0.004;
-        let mut ball =
-            Mover::new(&Ball::pool(BallId(1)), DVec3::Z * (-9.81 * h), DVec3::ZERO);
+        let mut ball = Mover::new(&Ball::pool(BallId(1)), DVec3::Z * (-9.81 * h), DVec3::ZERO);
         carry(&mut ball, DVec3::Z, &CLOTH, h);
         assert_eq!(ball.velocity, DVec3::ZERO);
         assert_eq!(ball.angular_velocity, DVec3::ZERO);

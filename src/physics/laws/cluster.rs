@@ -137,8 +137,8 @@ fn solve_round(movers: &mut [Mover], touches: &[Touch], active: &mut [Active]) {
             let touch = &touches[contact.index];
 
             let approach = touch.slip(movers).dot(touch.normal);
-            let wanted = contact.normal_impulse
-                + (contact.target - approach) / contact.normal_compliance;
+            let wanted =
+                contact.normal_impulse + (contact.target - approach) / contact.normal_compliance;
             let step = wanted.max(0.0) - contact.normal_impulse;
             contact.normal_impulse += step;
             touch.push(movers, touch.normal * step);

@@ -51,11 +51,9 @@ mod tests {
 
     #[test]
     fn without_friction_the_ball_keeps_to_the_bed_and_turns_back_with_the_restitution() {
-        let mut ball =
-            Mover::new(&Ball::pool(BallId(1)), DVec3::new(3.0, 1.0, 0.0), DVec3::ZERO);
+        let mut ball = Mover::new(&Ball::pool(BallId(1)), DVec3::new(3.0, 1.0, 0.0), DVec3::ZERO);
         let smooth = |restitution| Contact { restitution, friction: 0.0 };
-        let (cushion, bed) =
-            bounce(&mut ball, nose(), DVec3::Z, smooth(0.85), smooth(0.5));
+        let (cushion, bed) = bounce(&mut ball, nose(), DVec3::Z, smooth(0.85), smooth(0.5));
         assert!((ball.velocity - DVec3::new(-2.55, 1.0, 0.0)).length() < 1e-10);
         let jn = 1.85 * 0.17 * 3.0 / nose().x.abs();
         assert!((cushion.impulse.length() - jn).abs() < 1e-10);

@@ -1,0 +1,69 @@
+//! What a player at mouse and keyboard sees and does, for the picture.
+
+use crate::cue::Aim;
+use glam::{DVec2, DVec3};
+
+/// From where the picture is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CameraPose {
+    /// The eye [m].
+    pub eye: DVec3,
+    /// What it looks at [m].
+    pub target: DVec3,
+    /// Vertical field of view [rad].
+    pub field_of_view_rad: f64,
+}
+
+impl Default for CameraPose {
+    /// The whole table from behind its head.
+    fn default() -> Self {
+        CameraPose {
+            eye: DVec3::new(-2.6, -1.1, 1.5),
+            target: DVec3::new(0.0, 0.0, -0.1),
+            field_of_view_rad: 42.0 * std::f64::consts::PI / 180.0,
+        }
+    }
+}
+
+/// What the player is doing.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum HumanMode {
+    /// Somebody else is at the table, or balls roll.
+    #[default]
+    Watching,
+    /// Puts the cue ball down.
+    Placing,
+    /// Turns the cue, sets tip offset and elevation.
+    Aiming,
+    /// Holds the cue for a stroke: pulling back and pushing moves the tip.
+    Stroking,
+    /// Time stands still.
+    Paused,
+}
+
+/// What the picture shows of the player.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HumanView {
+    /// The camera.
+    pub camera: CameraPose,
+    /// What the player is doing.
+    pub mode: HumanMode,
+    /// How the cue is held, while aiming and stroking.
+    pub aim: Aim,
+    /// How far the tip is from where it meets the ball [m], backwards, while stroking.
+    pub pulled_back_m: f64,
+    /// Speed of the tip at its last contact with the cue ball, or now while stroking [m/s].
+    pub strength_m_s: f64,
+    /// Where the cue ball would be put down [m], while placing.
+    pub placing: Option<DVec2>,
+    /// It may be put there.
+    pub placing_allowed: bool,
+    /// Where the cue ball's centre is when it meets the first ball or cushion on its straight way
+    /// [m], while aiming; none if nothing is aimed at.
+    pub ghost: Option<DVec3>,
+    /// Which way the ball that is met there leaves, without friction: a unit vector; zero if it
+    /// meets a cushion.
+    pub object_heading: DVec2,
+    /// The help text is shown.
+    pub help: bool,
+}
