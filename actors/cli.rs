@@ -3,6 +3,8 @@
 //! What a command answers goes to stdout and nothing else does; progress and logs go to stderr.
 //! The exit code is 0 for success, 1 if a check failed, 2 for wrong usage or input.
 
+mod in_order;
+
 mod play;
 
 mod simulate;

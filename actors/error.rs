@@ -2,6 +2,7 @@
 
 use crate::conductor::RunError;
 use hapticbillard::cast::CastError;
+use hapticbillard::physics::PhysicsError;
 use hapticbillard::replay::RecordingError;
 use hapticbillard::scene::SceneError;
 use std::path::PathBuf;
@@ -70,6 +71,9 @@ pub enum Error {
     /// A game could not go on.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A simulation cannot begin or go on.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
     /// The operating system names no folder for data.
     #[error("there is no home folder to keep data in; set HOME")]
     NoHome,

@@ -6,6 +6,7 @@ use crate::files::{LineWriter, LoadedScene};
 use crate::runtime::{self, InputPort};
 use hapticbillard::cast::Cast;
 use hapticbillard::lockstep;
+use hapticbillard::physics::Simulation;
 use hapticbillard::replay::{self, Header, Line, RecordedInput, Recording};
 use hapticbillard::scene::{Overrides, Scene};
 use hapticbillard::table::Table;
@@ -87,6 +88,15 @@ impl Stage {
     /// The header of a recording of this game.
     pub fn header(&self) -> Header {
         self.header.clone()
+    }
+
+    /// The simulation alone, without anybody who plays.
+    ///
+    /// # Errors
+    /// What does not fit together.
+    pub fn simulation(&self) -> Result<Simulation, Error> {
+        let balls = self.scene.build_balls(&self.table)?;
+        Ok(Simulation::from_parts(&self.table, balls, &self.scene.physics)?)
     }
 
     /// The cores of this game.

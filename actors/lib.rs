@@ -8,6 +8,8 @@ pub mod error;
 
 pub mod files;
 
+pub mod cpu_time;
+
 pub mod participant;
 
 pub mod event_manager;

@@ -1,5 +1,6 @@
 //! `hapticbillard match`: games without a window.
 
+use super::in_order::in_order;
 use super::{Driver, Status, json_line, not_negative, progress};
 use clap::Args;
 use hapticbillard::cast::seed_of;
@@ -14,10 +15,8 @@ use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::{Headless, Stage, play_headless};
 use hapticbillard_actors::pacer::describe;
 use serde::Serialize;
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Instant;
 
 const EXAMPLE: &str = "\
@@ -226,64 +225,9 @@ fn interval95(wins: [u32; 2]) -> [[f64; 2]; 2] {
     })
 }
 
-/// Runs `play` for 0 to `games` on all cores and hands the results over in order, each as soon as
-/// those before it are done.
-fn in_order<T: Send>(
-    games: u32,
-    play: impl Fn(u32) -> T + Sync,
-    mut take: impl FnMut(u32, T) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let workers = std::thread::available_parallelism().map_or(1, |n| n.get()).min(games as usize);
-    let next = AtomicU32::new(0);
-    // No worker runs far ahead of the one that is waited for.
-    let (sender, receiver) = flume::bounded(2 * workers.max(1));
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            let (sender, next, play) = (sender.clone(), &next, &play);
-            scope.spawn(move || {
-                loop {
-                    let game = next.fetch_add(1, Ordering::Relaxed);
-                    // Whoever took the results has given up when nobody listens.
-                    if games <= game || sender.send((game, play(game))).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
-        drop(sender);
-        let mut waiting = BTreeMap::new();
-        let mut expected = 0;
-        while let Ok((game, result)) = receiver.recv() {
-            waiting.insert(game, result);
-            while let Some(result) = waiting.remove(&expected) {
-                take(expected, result)?;
-                expected += 1;
-            }
-        }
-        Ok(())
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn results_come_in_order_whoever_is_first() {
-        let mut seen = Vec::new();
-        let slow = |game: u32| (0..(50 - game) * 2000).fold(game, |a, b| a.wrapping_mul(31) ^ b);
-        in_order(
-            50,
-            |game| (slow(game), game).1,
-            |game, result| {
-                assert_eq!(game, result);
-                seen.push(game);
-                Ok(())
-            },
-        )
-        .unwrap();
-        assert_eq!(seen, (0..50).collect::<Vec<_>>());
-    }
 
     #[test]
     fn wilson_interval_of_eight_in_ten() {

@@ -1,13 +1,29 @@
 //! `hapticbillard simulate`: the physics of a scene, and nothing else.
 
-use super::{Status, no_runtime, positive};
+mod batch;
+
+mod bench;
+
+mod print;
+
+use super::{Status, positive};
 use clap::{Args, ValueEnum};
+use hapticbillard::events::{FactKind, FactSet, Topic};
 use hapticbillard::physics::{Integrator, SolverKind};
 use hapticbillard::scene::Scene;
+use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::Stage;
 use std::io::Write;
 use std::path::PathBuf;
+
+/// Who waits for rest gives up after this long [s].
+const LONGEST_S: f64 = 600.0;
+/// How far the simulation runs in one go [s], so that its facts appear while it runs.
+const SLICE_S: f64 = 1.0;
+/// What ends a run until rest.
+const SETTLED: FactSet = FactSet::of(&[Topic::Settled]);
 
 const EXAMPLE: &str = "\
 With --json: a line {\"t\",\"balls\":[..]} per sample, a line {\"t\",\"fact\",..} per fact, then the
@@ -119,8 +135,51 @@ fn override_scene(args: &SimulateArgs, scene: &mut Scene) {
 }
 
 /// Simulates.
-pub fn run(args: &SimulateArgs, _out: &mut dyn Write) -> Result<Status, Error> {
+pub fn run(args: &SimulateArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let mut loaded = load_scene(&args.scene)?;
     override_scene(args, &mut loaded.scene);
-    Err(no_runtime("simulate"))
+    let stage = Stage::new(&loaded, &args.scene)?;
+    let simulation = stage.simulation()?;
+    if let Some(shots) = args.bench {
+        return bench::run(args, &simulation, shots, out);
+    }
+    if let Some(file) = &args.batch {
+        return batch::run(args, &simulation, file, out);
+    }
+    let start = thread_cpu_time();
+    let mut simulation = simulation;
+    let mut time = 0.0;
+    let mut samples = 0u32;
+    let mut all = 0;
+    let settled = loop {
+        if let Some(dt) = args.sample {
+            while f64::from(samples) * dt <= time {
+                print::sample(args.json, &simulation, f64::from(samples) * dt, out)?;
+                samples += 1;
+            }
+        }
+        if args.until.is_some_and(|until| until <= time) {
+            break false;
+        }
+        let next_sample = args.sample.map_or(f64::INFINITY, |dt| f64::from(samples) * dt);
+        let limit = next_sample.min(args.until.unwrap_or(LONGEST_S)).min(time + SLICE_S);
+        let mut facts = Vec::new();
+        let stop = if args.until.is_some() { FactSet::NONE } else { SETTLED };
+        let reached = simulation.advance(limit, stop, &mut facts)?;
+        all += facts.len();
+        facts.iter().try_for_each(|fact| print::fact(args.json, fact, out))?;
+        let over = facts.iter().any(|fact| matches!(fact.kind, FactKind::Settled { .. }));
+        time = if reached < limit && over { reached } else { limit };
+        if args.until.is_none() && (over || simulation.is_still()) {
+            break true;
+        }
+        if args.until.is_none() && LONGEST_S <= time {
+            break false;
+        }
+    };
+    let cpu_ms = (thread_cpu_time() - start).as_secs_f64() * 1e3;
+    print::summary(args.json, &simulation, time, all, cpu_ms, out)?;
+    // Asked to run until everything rests, and it did not.
+    let failed = !settled && args.until.is_none();
+    Ok(if failed { Status::CheckFailed } else { Status::Success })
 }

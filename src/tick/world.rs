@@ -30,9 +30,11 @@ pub fn coast(
     stop: FactSet,
 ) -> Result<Advanced, PhysicsError> {
     let mut facts = Vec::new();
+    // What happens at the very start of a tick belongs to it and not to the one before.
+    let soon = Tick::containing(simulation.now_s()).after(1);
     simulation.advance(limit.end_s(), stop, &mut facts)?;
     let news = facts.iter().find(|fact| stop.contains(fact.kind.topic()));
-    let tick = news.map_or(limit, |fact| Tick::containing(fact.time_s).min(limit));
+    let tick = news.map_or(limit, |fact| Tick::containing(fact.time_s).max(soon).min(limit));
     if news.is_some() {
         // What else happens in the same tick belongs to the same batch.
         simulation.advance(tick.end_s(), FactSet::NONE, &mut facts)?;

@@ -26,7 +26,7 @@ const LAYERS: [&[&str]; 13] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 20] = [
+const ACTORS: [(&str, Option<&str>); 21] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -38,6 +38,7 @@ const ACTORS: [(&str, Option<&str>); 20] = [
     ("rules", Some("rules")),
     ("participant", Some("tick")),
     ("cli", None),
+    ("cpu_time", None),
     ("error", None),
     ("event_log", None),
     ("game", None),
