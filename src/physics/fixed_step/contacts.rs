@@ -81,11 +81,16 @@ impl FixedStep {
         let mut touches: Vec<Touch> = Vec::with_capacity(pairs.len());
         for (a, b, normal) in &pairs {
             let (one, two) = (&movers[place(*a)], &movers[place(*b)]);
-            let approach =
-                -(one.surface_velocity(*normal) - two.surface_velocity(-*normal)).dot(*normal);
             let lasting = self.lasting(*a, Some(*b), *normal, tolerance::STICKY_M_S);
-            let law = self.law_at(self.parameters.ball, approach, lasting, *a);
-            touches.push(Touch::new(place(*a), Some(place(*b)), *normal, law));
+            let law = if members.len() == 2 {
+                let approach =
+                    -(one.surface_velocity(*normal) - two.surface_velocity(-*normal)).dot(*normal);
+                self.law_at(self.parameters.ball, approach, lasting, *a)
+            } else {
+                self.law_at(self.parameters.ball, f64::INFINITY, lasting, *a)
+            };
+            let touch = Touch::new(place(*a), Some(place(*b)), *normal, law);
+            touches.push(Touch { sticky_m_s: lasting, ..touch });
         }
         let holding: SmallVec<[(usize, Support); 8]> = members
             .iter()
@@ -279,8 +284,9 @@ impl FixedStep {
             touches.push(Touch::new(0, None, normal, law));
             for (normal, surface) in &met {
                 let law = self.parameters.surface(*surface);
-                let law = self.law_at(law, -mover.velocity.dot(*normal), lasting, index);
-                touches.push(Touch::new(0, None, *normal, law));
+                let law = self.law_at(law, f64::INFINITY, lasting, index);
+                let touch = Touch::new(0, None, *normal, law);
+                touches.push(Touch { sticky_m_s: lasting, ..touch });
             }
             for support in &held {
                 let law = self.parameters.surface(support.surface);

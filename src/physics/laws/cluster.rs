@@ -26,6 +26,9 @@ pub struct Touch {
     pub normal: DVec3,
     /// Restitution.
     pub restitution: f64,
+    /// Approaches up to this speed have no restitution [m/s]: a round may close a contact that was
+    /// open or at rest before, so each round decides anew.
+    pub sticky_m_s: f64,
     /// Friction coefficient.
     pub friction: f64,
     /// A surface that carries the ball: it acts in every round, without restitution.
@@ -44,6 +47,7 @@ impl Touch {
             b,
             normal,
             restitution: law.restitution,
+            sticky_m_s: 0.0,
             friction: law.friction,
             carries: false,
             loss_j: 0.0,
@@ -100,7 +104,8 @@ pub fn resolve(movers: &mut [Mover], touches: &mut [Touch]) -> bool {
             closes |= closing;
             let (normal_compliance, tangential_compliance) = touch.compliance(movers);
             if (closing || touch.carries) && normal_compliance > 0.0 {
-                let restitution = if elastic { touch.restitution } else { 0.0 };
+                let bounces = elastic && touch.sticky_m_s < -approach;
+                let restitution = if bounces { touch.restitution } else { 0.0 };
                 let target = if touch.carries { 0.0 } else { -restitution * approach };
                 active.push(Active {
                     index,
@@ -218,5 +223,39 @@ mod tests {
         let after: f64 = movers.iter().map(Mover::kinetic_j).sum();
         let lost: f64 = touches.iter().map(|t| t.loss_j).sum();
         assert!(0.0 < lost && (before - after - lost).abs() < 1e-12 * before);
+    }
+
+    /// The tight rack of fifteen, hit straight at 10 m/s, without friction. Expected: the same
+    /// rounds computed independently, which lie within 1 to 15 % of Hertz contacts but for the
+    /// apex ball (cue -1.61, corners 5.21, apex 0.27, row two 1.18, middle of the last row 2.10 m/s).
+    #[test]
+    fn a_break_drives_the_corner_balls_out() {
+        let ball = Ball::pool(BallId(1));
+        let d = 2.0 * ball.radius_m;
+        let mut places = vec![DVec3::X * -d];
+        for row in 0..5 {
+            for k in 0..=row {
+                let y = (f64::from(k) - 0.5 * f64::from(row)) * d;
+                places.push(DVec3::new(f64::from(row) * d * 0.75_f64.sqrt(), y, 0.0));
+            }
+        }
+        let mut movers: Vec<Mover> =
+            places.iter().map(|_| Mover::new(&ball, DVec3::ZERO, DVec3::ZERO)).collect();
+        movers[0].velocity = DVec3::X * 10.0;
+        let law = Contact { restitution: 0.95, friction: 0.0 };
+        let mut touches = Vec::new();
+        for a in 0..places.len() {
+            for b in 0..a {
+                let apart = places[a] - places[b];
+                if apart.length() < d * 1.0001 {
+                    touches.push(Touch::new(a, Some(b), apart.normalize(), law));
+                }
+            }
+        }
+        assert_eq!(touches.len(), 31);
+        assert!(resolve(&mut movers, &mut touches));
+        let speed = |i: usize| movers[i].velocity.length();
+        assert!((movers[0].velocity.x + 1.61).abs() < 0.01, "cue {:?}", movers[0].velocity);
+        assert!((speed(11) - 5.21).abs() < 0.01 && (speed(15) - 5.21).abs() < 0.01);
     }
 }
