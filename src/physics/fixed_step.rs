@@ -8,9 +8,9 @@
 //!
 //! A step is computed when time beyond its start is asked for; facts carry the exact time of the
 //! contact within the step and wait until that time is reached. A command acts at the first grid
-//! time not before its own that has not been computed yet; what it causes is told when time goes on.
-//! Hence where `advance` is cut changes no bit. While everything is at rest to the last bit and no
-//! tip comes near, steps are skipped; computing them would change nothing.
+//! time not before its own that has not been computed yet; what it causes is told when time goes
+//! on. Hence where `advance` is cut changes no bit. While everything is at rest to the last bit and
+//! no tip comes near, steps are skipped; computing them would change nothing.
 
 mod body;
 mod commands;

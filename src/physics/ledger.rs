@@ -2,8 +2,8 @@
 //!
 //! Every entry is computed from impulses and the surface velocities they act on, never as a
 //! difference of kinetic energies, so the residual is a real check of the solver: it holds rounding
-//! and nothing else. What a coarse step itself adds or takes (gravity over a straight path, overlaps
-//! that are pushed out) has an account of its own.
+//! and nothing else. What a coarse step itself adds or takes (gravity over a straight path,
+//! overlaps that are pushed out) has an account of its own.
 
 use glam::DVec3;
 

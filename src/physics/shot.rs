@@ -49,7 +49,8 @@ impl Strike {
         DVec3::new(cos_e * cos_a, cos_e * sin_a, -sin_e)
     }
 
-    /// The path of the tip that makes this stroke at a ball at `ball` [m] of radius `radius_m`, from
+    /// The path of the tip that makes this stroke at a ball at `ball` [m] of radius `radius_m`,
+    /// from
     /// `start_s` on: straight along the shaft at constant speed, and braked after the contact.
     pub fn path(
         &self,
@@ -131,7 +132,8 @@ impl Shot {
     }
 }
 
-/// The way of one ball: straight from grid time to grid time, and broken where it touched something.
+/// The way of one ball: straight from grid time to grid time, and broken where it touched
+/// something.
 #[derive(Debug, Clone, Copy)]
 pub struct Trajectory<'a> {
     ball: BallId,

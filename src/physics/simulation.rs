@@ -106,8 +106,8 @@ impl Simulation {
         self.engine.solver_mut().apply(at, command)
     }
 
-    /// Runs to `limit`, or to the first fact in `stop`; appends what happened in time order; returns
-    /// the time reached. Where it is cut changes no bit.
+    /// Runs to `limit`, or to the first fact in `stop`; appends what happened in time order;
+    /// returns the time reached. Where it is cut changes no bit.
     pub fn advance(
         &mut self,
         limit: Seconds,

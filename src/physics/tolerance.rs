@@ -67,7 +67,8 @@ pub const CONTACTS_PER_STEP: u32 = 16;
 /// Two normals closer than this [rad] are one surface; faces so close to one plane [m] lie in it.
 pub const COPLANAR: f64 = 1e-9;
 
-/// Two balls, or a ball and a plane, may overlap by this at the start [m]: rounding of a tight rack.
+/// Two balls, or a ball and a plane, may overlap by this at the start [m]: rounding of a tight
+/// rack.
 pub const START_OVERLAP_M: f64 = 1e-6;
 
 /// A ball that falls this far below everything has left the table [m].

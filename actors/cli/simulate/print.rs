@@ -174,7 +174,8 @@ pub fn summary(
     )?;
     Ok(writeln!(
         out,
-        "energy {:.6} J at the start, {:.6} J at the end, {:.1e} J unaccounted for; state {state_hash}",
+        "energy {:.6} J at the start, {:.6} J at the end, {:.1e} J unaccounted for; \
+         state {state_hash}",
         energy.start, energy.end, energy.residual
     )?)
 }

@@ -1,10 +1,10 @@
 //! The cue in the stepper.
 //!
 //! The tip follows its path exactly until it strikes. The impulse changes the cue's speed along its
-//! shaft; from then on the cue lags behind its path, and the hand draws it back: a critically damped
-//! coupling, carried from step to step by its closed form. Across the shaft the tip stays on the
-//! path, because the hand guides it there. A ball that leaves faster than the path goes on is struck
-//! once; a path that runs after the ball strikes it again, and that is told.
+//! shaft; from then on the cue lags behind its path, and the hand draws it back: a critically
+//! damped coupling, carried from step to step by its closed form. Across the shaft the tip stays on
+//! the path, because the hand guides it there. A ball that leaves faster than the path goes on is
+//! struck once; a path that runs after the ball strikes it again, and that is told.
 
 use super::body::{Body, Path};
 use super::spatial_hash::Bounds;
@@ -248,8 +248,8 @@ impl CueMotion {
         self.prepare(start, tau, h);
     }
 
-    /// A step, or several in which nothing happened, end: forgets balls that have parted, and a lead
-    /// that has died away.
+    /// A step, or several in which nothing happened, end: forgets balls that have parted, and a
+    /// lead that has died away.
     pub fn end_step(&mut self, bodies: &[Body], end: Seconds) {
         let tip = self.pose(end).tip;
         self.struck.retain(|struck| {

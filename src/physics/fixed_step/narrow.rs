@@ -1,4 +1,5 @@
-//! The exact tests of a ball against a face: nearest point, and first contact along a straight path.
+//! The exact tests of a ball against a face: nearest point, and first contact along a straight
+//! path.
 //!
 //! Both have two stages (paper, section 2.1): first the distance to the face's plane, which rejects
 //! most, then the exact geometry. Faces are solid from both sides; a ball is on the side where its

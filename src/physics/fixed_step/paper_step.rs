@@ -3,8 +3,8 @@
 //! All pairs that overlap are reflected and each ball is reflected at the face that it has entered
 //! deepest; friction is the paper's. Known faults that are kept because they are what is to be
 //! measured: lying balls fall and rise by fractions of a millimetre, balls that move farther than
-//! their radius in a step may pass through faces, only the deepest face of several acts, and without
-//! back-dating the contact normal is that at the end of the step.
+//! their radius in a step may pass through faces, only the deepest face of several acts, and
+//! without back-dating the contact normal is that at the end of the step.
 
 use super::FixedStep;
 use super::body::Support;

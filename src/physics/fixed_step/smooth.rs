@@ -150,9 +150,9 @@ impl FixedStep {
 
     /// One step of the chosen integrator under gravity and the ball's spring (paper, section 2.3).
     ///
-    /// Contacts are the same for all; between them the forces are constant unless there is a spring,
-    /// so a finer integrator gains little on a billiard table: what is lost lies in the steps that
-    /// have a contact.
+    /// Contacts are the same for all; between them the forces are constant unless there is a
+    /// spring, so a finer integrator gains little on a billiard table: what is lost lies in the
+    /// steps that have a contact.
     fn integrate(&self, body: &Body) -> Free {
         let (h, v, w) = (self.h, body.velocity, body.angular_velocity);
         let start = (body.position, v, w);

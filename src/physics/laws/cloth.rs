@@ -59,13 +59,13 @@ pub struct Carrying {
     pub spin_deceleration_rad_s2: f64,
 }
 
-/// Carries a ball for one step of length `h`: its normal velocity, which the step's forces have just
-/// made, becomes zero, and what that takes is the normal impulse that friction lives on.
+/// Carries a ball for one step of length `h`: its normal velocity, which the step's forces have
+/// just made, becomes zero, and what that takes is the normal impulse that friction lives on.
 ///
 /// Friction is Coulomb's with the slip stopping at zero: a ball that has stopped slipping rolls. It
-/// then loses μ_r Jn/m of its speed for the part of the step in which it rolled, keeping ω = n × v/R.
-/// The spin about the normal falls by α h. Limits: a ball at rest stays exactly at rest; on a slope
-/// steeper than the rolling resistance it rolls down with 5/7 of gravity's part.
+/// then loses μ_r Jn/m of its speed for the part of the step in which it rolled, keeping ω = n ×
+/// v/R. The spin about the normal falls by α h. Limits: a ball at rest stays exactly at rest; on a
+/// slope steeper than the rolling resistance it rolls down with 5/7 of gravity's part.
 pub fn carry(ball: &mut Mover, normal: DVec3, law: &Carrying, h: Seconds) -> Impact {
     let before = ball.surface_velocity(normal);
     let approach = before.dot(normal);

@@ -1,15 +1,15 @@
 //! Several contacts at one instant: rounds of joint impulses.
 //!
-//! At 10 m/s billiard balls compress by most of a millimetre, so the contacts of a tight rack, or of
-//! a ball that lies at a cushion, act at the same time. The rule: take all contacts that close now,
-//! solve their impulses jointly with their restitution (projected Gauss-Seidel: normal impulses ≥ 0,
-//! friction within its disc), and repeat until none closes. A blow then travels through a cradle
-//! from pair to pair, and one ball that meets two sends both off symmetrically; a plain loop over
-//! pairs fails the second, one global solve the first.
+//! At 10 m/s billiard balls compress by most of a millimetre, so the contacts of a tight rack, or
+//! of a ball that lies at a cushion, act at the same time. The rule: take all contacts that close
+//! now, solve their impulses jointly with their restitution (projected Gauss-Seidel: normal
+//! impulses ≥ 0, friction within its disc), and repeat until none closes. A blow then travels
+//! through a cradle from pair to pair, and one ball that meets two sends both off symmetrically; a
+//! plain loop over pairs fails the second, one global solve the first.
 //!
-//! Limits: after [`tolerance::CLUSTER_ROUNDS`] rounds contacts lose their restitution. Compared with
-//! elastic (Hertz) contacts the cue, corner and last-row balls of a break are within 1 to 15 %; the
-//! slow apex ball is not.
+//! Limits: after [`tolerance::CLUSTER_ROUNDS`] rounds contacts lose their restitution. Compared
+//! with elastic (Hertz) contacts the cue, corner and last-row balls of a break are within 1 to 15
+//! %; the slow apex ball is not.
 
 use super::Mover;
 use crate::physics::tolerance;
@@ -227,7 +227,8 @@ mod tests {
 
     /// The tight rack of fifteen, hit straight at 10 m/s, without friction. Expected: the same
     /// rounds computed independently, which lie within 1 to 15 % of Hertz contacts but for the
-    /// apex ball (cue -1.61, corners 5.21, apex 0.27, row two 1.18, middle of the last row 2.10 m/s).
+    /// apex ball (cue -1.61, corners 5.21, apex 0.27, row two 1.18, middle of the last row 2.10
+    /// m/s).
     #[test]
     fn a_break_drives_the_corner_balls_out() {
         let ball = Ball::pool(BallId(1));

@@ -42,8 +42,9 @@ fn outer(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }
 
-/// Resolves the contact of the tip with a ball; `normal` is the unit vector from the tip's centre to
-/// the ball's. Changes the ball and the cue's velocity; the impulse returned is the one on the ball.
+/// Resolves the contact of the tip with a ball; `normal` is the unit vector from the tip's centre
+/// to the ball's. Changes the ball and the cue's velocity; the impulse returned is the one on the
+/// ball.
 ///
 /// With r = −R n, u = v + ω × r − v_tip and the contact matrix
 /// K = 1/m − \[r\]× (1/I) \[r\]× + M⁻¹:
@@ -52,9 +53,9 @@ fn outer(v: DVec3) -> DMat3 {
 /// slip    J = Jn (n + μ t̂),  Jn = −(1 + e) u_n / (n·K (n + μ t̂)),  t̂ along the trial's Jt
 /// ```
 /// slip if the trial's |Jt| exceeds μ Jn: a miscue. The end mass makes squirt: the ball leaves a
-/// little off the shaft's direction, away from the side that was hit. e = 0.75 and μ = 0.6 are usual
-/// values for leather; m_e = m/30. Limits: rigid impulse; the bed under the ball acts afterwards
-/// ([`super::ball_face`]), which is what makes a jump shot.
+/// little off the shaft's direction, away from the side that was hit. e = 0.75 and μ = 0.6 are
+/// usual values for leather; m_e = m/30. Limits: rigid impulse; the bed under the ball acts
+/// afterwards ([`super::ball_face`]), which is what makes a jump shot.
 pub fn cue_contact(ball: &mut Mover, cue: &mut Cue, normal: DVec3) -> Impact {
     let before = ball.surface_velocity(normal) - cue.velocity;
     let approach = before.dot(normal);
@@ -111,8 +112,8 @@ mod tests {
 
     #[test]
     fn off_centre_strokes_are_slower_spin_more_and_squirt_away_from_the_offset() {
-        // Speeds 2.66 / 2.46 / 1.96 / 1.68 m/s and squirt 0 / 1.6 / 3.1 / 3.9° at 0, 0.2, 0.4, 0.5 R
-        // with an end mass of 9 g.
+        // Speeds 2.66 / 2.46 / 1.96 / 1.68 m/s and squirt 0 / 1.6 / 3.1 / 3.9° at 0, 0.2, 0.4, 0.5
+        // R with an end mass of 9 g.
         for (offset, speed, squirt) in
             [(0.0, 2.66, 0.0), (0.2, 2.46, 1.6), (0.4, 1.96, 3.1), (0.5, 1.68, 3.9)]
         {

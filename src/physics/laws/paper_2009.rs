@@ -2,8 +2,8 @@
 //!
 //! They are here to be measured against and to reproduce what the paper reports. Two things differ
 //! from the impulse laws: friction acts on each ball as if the other were fixed, which stops twice
-//! as much slip between balls as it should (the aiming factor 0.45 of section 5.4.3 comes from that),
-//! and the normal force counts gravity besides the collision that gravity causes.
+//! as much slip between balls as it should (the aiming factor 0.45 of section 5.4.3 comes from
+//! that), and the normal force counts gravity besides the collision that gravity causes.
 
 use super::Mover;
 use crate::units::Seconds;
