@@ -3,6 +3,7 @@
 //! [`Simulation`] is the front door. Behind it a [`Solver`] moves the balls, and every solver uses
 //! the same contact laws ([`laws`]) with the same numbers ([`Parameters`]).
 
+mod checks;
 mod error;
 mod settings;
 mod snapshot;
@@ -23,6 +24,8 @@ mod work;
 mod solver;
 
 pub mod fixed_step;
+
+pub mod event_driven;
 
 mod shot;
 mod simulation;

@@ -62,6 +62,21 @@ pub enum PhysicsError {
         /// √(side² + height²).
         offset: f64,
     },
+    /// The solver does not get on.
+    #[error(
+        "{events} events within a second at {time_s} s, most of them of ball {ball}: something is \
+         stuck there; move that ball, or use solver = \"fixed-step\""
+    )]
+    TooManyEvents {
+        /// When [s].
+        time_s: Seconds,
+        /// How many.
+        events: u64,
+        /// The busiest ball.
+        ball: BallId,
+        /// Where everything was.
+        state: Box<super::Snapshot>,
+    },
     /// A rack cannot be placed.
     #[error(transparent)]
     Rack(#[from] crate::rack::RackError),

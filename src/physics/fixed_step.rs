@@ -18,7 +18,7 @@ mod contacts;
 mod cue_motion;
 mod finish;
 mod ground;
-mod narrow;
+pub(super) mod narrow;
 mod paper_step;
 mod smooth;
 pub mod spatial_hash;
@@ -28,7 +28,7 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, tolerance,
+    checks, Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
@@ -106,24 +106,18 @@ impl FixedStep {
     /// A world of balls on a table, with cells of `cell_m`; any size finds the same contacts.
     pub fn new(
         table: &Table,
-        mut balls: Vec<(Ball, BallState)>,
+        balls: Vec<(Ball, BallState)>,
         settings: &PhysicsSettings,
         parameters: Parameters,
         cell_m: f64,
     ) -> Result<Self, PhysicsError> {
-        check_setting("step_ms", settings.step_ms, 1e-6, 50.0, "must lie between 1e-6 and 50")?;
-        check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
+        checks::check_setting("step_ms", settings.step_ms, 1e-6, 50.0, "must lie between 1e-6 and 50")?;
+        checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
-        balls.sort_by_key(|(ball, _)| ball.id);
-        for (ball, state) in &balls {
-            check_ball(ball, state)?;
-        }
-        if let Some(pair) = balls.windows(2).find(|pair| pair[0].0.id == pair[1].0.id) {
-            return Err(PhysicsError::DuplicateBall(pair[0].0.id));
-        }
-        let bodies: Vec<Body> =
-            balls.into_iter().map(|(ball, state)| Body::new(ball, &state)).collect();
-        check_overlaps(&bodies)?;
+        let bodies: Vec<Body> = checks::checked(balls)?
+            .into_iter()
+            .map(|(ball, state)| Body::new(ball, &state))
+            .collect();
 
         let h = settings.step_ms / 1000.0;
         let count = bodies.len();
@@ -429,57 +423,6 @@ impl Solver for FixedStep {
 fn weight_j(body: &Body, gravity_m_s2: f64) -> f64 {
     let weighs = body.ball.flags.gravity && body.ball.flags.integrate;
     if weighs { body.ball.mass_kg * gravity_m_s2 * body.position.z } else { 0.0 }
-}
-
-fn check_setting(
-    key: &'static str,
-    value: f64,
-    low: f64,
-    high: f64,
-    allowed: &'static str,
-) -> Result<(), PhysicsError> {
-    if (low..=high).contains(&value) {
-        Ok(())
-    } else {
-        Err(PhysicsError::Setting { key, value, allowed })
-    }
-}
-
-fn check_ball(ball: &Ball, state: &BallState) -> Result<(), PhysicsError> {
-    let positive = "must be a positive number";
-    for (key, value) in [
-        ("radius_m", ball.radius_m),
-        ("mass_kg", ball.mass_kg),
-        ("inertia_factor", ball.inertia_factor),
-    ] {
-        check_setting(key, value, f64::MIN_POSITIVE, 1e9, positive)?;
-    }
-    for (term, value) in [
-        ("position", state.position),
-        ("velocity", state.velocity),
-        ("angular velocity", state.angular_velocity),
-    ] {
-        if !value.is_finite() {
-            return Err(PhysicsError::NonFinite { ball: ball.id, time_s: 0.0, term });
-        }
-    }
-    if !(state.orientation.is_finite() && state.orientation.length_squared() > 1e-12) {
-        return Err(PhysicsError::NonFinite { ball: ball.id, time_s: 0.0, term: "orientation" });
-    }
-    Ok(())
-}
-
-fn check_overlaps(bodies: &[Body]) -> Result<(), PhysicsError> {
-    for (index, a) in bodies.iter().enumerate().filter(|(_, body)| body.solid()) {
-        for b in bodies[index + 1..].iter().filter(|body| body.solid()) {
-            let reach = a.ball.radius_m + b.ball.radius_m;
-            let depth_m = reach - a.position.distance(b.position);
-            if depth_m > tolerance::START_OVERLAP_M {
-                return Err(PhysicsError::Overlap { a: a.ball.id, b: b.ball.id, depth_m });
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Takes a ball out of play, where it is.

@@ -43,6 +43,8 @@ impl Default for PhysicsSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolverKind {
+    /// Exact: every free motion in closed form, every contact a root of a polynomial.
+    EventDriven,
     /// The paper's method: fixed steps, contacts found by overlap (chapter 2).
     FixedStep,
 }

@@ -1,8 +1,9 @@
 //! A stroke in the language of players, and what came of it.
 
+use super::event_driven::Segment;
 use super::fixed_step::{Knot, between};
 use super::{Ledger, PhysicsError, Simulation, Work};
-use crate::ball::BallState;
+use crate::ball::{BallPlace, BallState};
 use crate::cue::{CuePath, CuePiece, TIP_RADIUS_M};
 use crate::events::Fact;
 use crate::ids::BallId;
@@ -120,42 +121,85 @@ pub struct Shot {
     /// The world after the shot.
     pub end: Simulation,
     pub(super) ids: Vec<BallId>,
-    pub(super) tracks: Vec<Vec<Knot>>,
+    pub(super) tracks: Tracks,
+}
+
+/// Where the balls went, in the order of their ids.
+#[derive(Debug, Clone)]
+pub(super) enum Tracks {
+    /// Straight from grid time to grid time, and broken where a ball touched something.
+    Knots(Vec<Vec<Knot>>),
+    /// Exactly.
+    Segments(Vec<Vec<Segment>>),
 }
 
 impl Shot {
     /// Where a ball went; empty if nobody knows it.
     pub fn trajectory(&self, ball: BallId) -> Trajectory<'_> {
         let place = self.ids.binary_search(&ball).ok();
-        let knots = place.and_then(|place| self.tracks.get(place)).map_or(&[][..], |knots| knots);
-        Trajectory { ball, knots }
+        let track = match &self.tracks {
+            Tracks::Knots(tracks) => {
+                Track::Knots(place.and_then(|place| tracks.get(place)).map_or(&[], |t| t))
+            }
+            Tracks::Segments(tracks) => {
+                Track::Segments(place.and_then(|place| tracks.get(place)).map_or(&[], |t| t))
+            }
+        };
+        Trajectory { ball, track, end_s: self.end_s }
     }
 }
 
-/// The way of one ball: straight from grid time to grid time, and broken where it touched
-/// something.
+/// The way of one ball.
 #[derive(Debug, Clone, Copy)]
 pub struct Trajectory<'a> {
     ball: BallId,
-    knots: &'a [Knot],
+    track: Track<'a>,
+    end_s: Seconds,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Track<'a> {
+    Knots(&'a [Knot]),
+    Segments(&'a [Segment]),
 }
 
 impl<'a> Trajectory<'a> {
+    /// When it begins [s]; none if it is empty.
+    fn start_s(&self) -> Option<Seconds> {
+        match self.track {
+            Track::Knots(knots) => knots.first().map(|knot| knot.time_s),
+            Track::Segments(segments) => segments.first().map(|segment| segment.start_s),
+        }
+    }
+
     /// The state at a time; none outside of the shot.
     pub fn at(&self, time_s: Seconds) -> Option<BallState> {
-        let (first, last) = (self.knots.first()?, self.knots.last()?);
-        if !(first.time_s <= time_s && time_s <= last.time_s) {
-            return None;
+        let start = self.start_s()?;
+        match self.track {
+            Track::Knots(knots) => {
+                let last = knots.last()?;
+                if !(start <= time_s && time_s <= last.time_s) {
+                    return None;
+                }
+                let next = knots.partition_point(|knot| knot.time_s <= time_s);
+                let from = &knots[next.saturating_sub(1)];
+                let to = knots.get(next).unwrap_or(from);
+                Some(between(self.ball, from, to, time_s))
+            }
+            Track::Segments(segments) => {
+                if !(start <= time_s && time_s <= self.end_s) {
+                    return None;
+                }
+                let next = segments.partition_point(|segment| segment.start_s <= time_s);
+                let segment = &segments[next.saturating_sub(1)];
+                Some(segment.state(self.ball, BallPlace::OnTable, time_s))
+            }
         }
-        let next = self.knots.partition_point(|knot| knot.time_s <= time_s);
-        let from = &self.knots[next.saturating_sub(1)];
-        let to = self.knots.get(next).unwrap_or(from);
-        Some(between(self.ball, from, to, time_s))
     }
 
     /// States every `dt` seconds, from the start to the end of the shot.
     pub fn every(self, dt: Seconds) -> impl Iterator<Item = BallState> + 'a {
-        let start = self.knots.first().map_or(0.0, |knot| knot.time_s);
+        let start = self.start_s().unwrap_or(0.0);
         let counts = if dt > 0.0 { 0..u64::MAX } else { 0..0 };
         counts.map_while(move |n| self.at(start + n as f64 * dt))
     }

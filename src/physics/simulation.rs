@@ -1,7 +1,8 @@
 //! A simulation: a world of balls on a table that anybody can clone, strike and watch.
 
+use super::event_driven::EventDriven;
 use super::fixed_step::{CELL_M, FixedStep};
-use super::shot::{Shot, Strike};
+use super::shot::{Shot, Strike, Tracks};
 use super::{
     Ledger, Parameters, PhysicsError, PhysicsSettings, Snapshot, Solver, SolverKind, Work,
 };
@@ -48,19 +49,22 @@ pub struct Simulation {
 /// The solvers to choose from.
 #[derive(Debug, Clone)]
 enum Engine {
-    FixedStep(FixedStep),
+    EventDriven(Box<EventDriven>),
+    FixedStep(Box<FixedStep>),
 }
 
 impl Engine {
     fn solver(&self) -> &dyn Solver {
         match self {
-            Engine::FixedStep(solver) => solver,
+            Engine::EventDriven(solver) => &**solver,
+            Engine::FixedStep(solver) => &**solver,
         }
     }
 
     fn solver_mut(&mut self) -> &mut dyn Solver {
         match self {
-            Engine::FixedStep(solver) => solver,
+            Engine::EventDriven(solver) => &mut **solver,
+            Engine::FixedStep(solver) => &mut **solver,
         }
     }
 }
@@ -89,8 +93,13 @@ impl Simulation {
         parameters: Parameters,
     ) -> Result<Self, PhysicsError> {
         let engine = match settings.solver {
+            SolverKind::EventDriven => {
+                let solver = EventDriven::new(table, balls, settings, parameters)?;
+                Engine::EventDriven(Box::new(solver))
+            }
             SolverKind::FixedStep => {
-                Engine::FixedStep(FixedStep::new(table, balls, settings, parameters, CELL_M)?)
+                let solver = FixedStep::new(table, balls, settings, parameters, CELL_M)?;
+                Engine::FixedStep(Box::new(solver))
             }
         };
         Ok(Simulation { engine, now_s: 0.0 })
@@ -124,6 +133,7 @@ impl Simulation {
         let ball = self.sample(BallId::CUE, self.now_s);
         let ball = ball.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
         let radius_m = match &self.engine {
+            Engine::EventDriven(solver) => solver.radius_m(BallId::CUE),
             Engine::FixedStep(solver) => solver.radius_m(BallId::CUE),
         };
         let radius_m = radius_m.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
@@ -138,6 +148,8 @@ impl Simulation {
 
     fn step_s(&self) -> Seconds {
         match &self.engine {
+            // A command acts at its own time.
+            Engine::EventDriven(_) => 0.0,
             Engine::FixedStep(solver) => solver.step_s(),
         }
     }
@@ -145,6 +157,7 @@ impl Simulation {
     /// Runs until everything has settled and keeps where the balls went.
     pub fn run_until_rest(mut self) -> Result<Shot, PhysicsError> {
         match &mut self.engine {
+            Engine::EventDriven(solver) => solver.keep_tracks(),
             Engine::FixedStep(solver) => solver.keep_tracks(),
         }
         let start_s = self.now_s;
@@ -162,7 +175,8 @@ impl Simulation {
             }
         }
         let tracks = match &mut self.engine {
-            Engine::FixedStep(solver) => solver.take_tracks(),
+            Engine::EventDriven(solver) => Tracks::Segments(solver.take_tracks()),
+            Engine::FixedStep(solver) => Tracks::Knots(solver.take_tracks()),
         };
         Ok(Shot {
             facts,

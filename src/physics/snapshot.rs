@@ -6,7 +6,7 @@ use crate::ids::BallId;
 use crate::units::Seconds;
 
 /// All balls and the cue at one time.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// The time [s].
     pub time_s: Seconds,

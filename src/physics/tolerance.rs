@@ -73,3 +73,39 @@ pub const START_OVERLAP_M: f64 = 1e-6;
 
 /// A ball that falls this far below everything has left the table [m].
 pub const ABYSS_M: f64 = 1.0;
+
+/// Two things that lie together and are pressed collide once they overlap by this [m]; it is taken
+/// back then. Larger: energy appears; smaller: more micro-impacts.
+pub const PRESS_M: f64 = 1e-7;
+
+/// A hop that begins slower than this is not followed; how long the rest of the series lasts is
+/// added in closed form [m/s]. Larger: paths differ by the height of the last hops.
+pub const HOP_M_S: f64 = 2e-5;
+
+/// Smaller slip goes at once [m/s]; else 1e-7 m/s of it would breed sliding for 1e-7 s.
+pub const SLIP_M_S: f64 = 1e-5;
+
+/// A ball that begins to roll more slowly stands [m/s]; it would roll a ten-thousandth of a
+/// millimetre.
+pub const ROLL_M_S: f64 = 1e-4;
+
+/// Faces whose planes differ by no more than this [m] are one patch.
+pub const MERGE_M: f64 = 1e-6;
+
+/// And whose normals have a cosine that differs from 1 by no more than this: 1e-4 rad.
+pub const MERGE_NORMAL: f64 = 5e-9;
+
+/// Normals of one contact, seen from neighbouring features: the cosine differs from 1 by less.
+pub const SAME_NORMAL: f64 = 1e-9;
+
+/// A ball that has more contacts than this within [`BUSY_S`] is in lasting contact.
+pub const BUSY_CONTACTS: u32 = 16;
+
+/// See [`BUSY_CONTACTS`] [s].
+pub const BUSY_S: Seconds = 0.01;
+
+/// Step of the motion that has no closed form [s].
+pub const LASTING_STEP_S: Seconds = 5e-4;
+
+/// What lies still this long, slower than [`REST_M_S`], sleeps [s].
+pub const SLEEP_S: Seconds = 0.2;

@@ -6,40 +6,17 @@ use crate::ball::{BallPlace, Motion};
 use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};
 use crate::ids::BallId;
-use crate::physics::{PhysicsError, tolerance};
+use crate::physics::{PhysicsError, checks, tolerance};
 use crate::rack;
 use crate::units::Seconds;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
-/// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
-const D_RADIUS: f64 = 11.5 / 70.0;
-
 impl FixedStep {
     /// Whether a command can be carried out at all.
     pub(super) fn check_command(&self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
-        let broken = |term| Err(PhysicsError::Command { time_s: at, term });
-        if !at.is_finite() {
-            return broken("time");
-        }
+        checks::check_command(at, command)?;
         match command {
-            Command::MoveCue(path) => {
-                for piece in &path.pieces {
-                    let times = piece.start_s.is_finite() && piece.duration_s.is_finite();
-                    let vectors = [
-                        piece.position,
-                        piece.velocity,
-                        piece.acceleration,
-                        piece.direction,
-                        piece.direction_end,
-                    ];
-                    if !times || !vectors.iter().all(|v| v.is_finite()) {
-                        return broken("cue path");
-                    }
-                }
-                Ok(())
-            }
-            Command::PlaceBall { position_m, .. } if !position_m.is_finite() => broken("position"),
             Command::PlaceBall { ball, .. } if self.index(*ball).is_none() => {
                 Err(PhysicsError::UnknownBall(*ball))
             }
@@ -97,30 +74,15 @@ impl FixedStep {
 
     /// Whether a ball may be put here: in its zone, on the bed, on no other ball.
     fn may_stand(&self, index: usize, place: DVec2, zone: Zone) -> bool {
-        let body = &self.bodies[index];
-        let radius = body.ball.radius_m;
-        if let Some(bed) = self.ground.bed {
-            let in_zone = match zone {
-                Zone::Anywhere => true,
-                Zone::Kitchen => place.x <= bed.head_string_x(),
-                Zone::D => {
-                    place.x <= bed.head_string_x()
-                        && place.distance(bed.head_spot()) <= D_RADIUS * bed.width_m
-                }
-            };
-            let over_pocket = self
-                .ground
-                .pockets
-                .iter()
-                .any(|pocket| pocket.centre.distance(place) <= pocket.radius_m);
-            if !in_zone || !bed.holds(place, radius) || over_pocket {
-                return false;
-            }
-        }
-        let centre = place.extend(radius);
-        !self.bodies.iter().enumerate().any(|(other, it)| {
-            other != index && it.solid() && it.position.distance(centre) < radius + it.ball.radius_m
-        })
+        let others = self
+            .bodies
+            .iter()
+            .enumerate()
+            .filter(|(other, body)| *other != index && body.solid())
+            .map(|(_, body)| (body.position, body.ball.radius_m));
+        let radius = self.bodies[index].ball.radius_m;
+        let (bed, pockets) = (self.ground.bed.as_ref(), &self.ground.pockets);
+        checks::may_stand(bed, pockets, others, radius, place, zone)
     }
 
     /// Puts a ball down at rest.

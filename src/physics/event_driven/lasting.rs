@@ -1,0 +1,383 @@
+//! Motion that has no closed form: a ball that turns about a rim, slides down a slope, is wedged
+//! between surfaces or leans on other balls.
+//!
+//! Only the balls concerned are stepped, all on one grid of [`tolerance::LASTING_STEP_S`]. A step
+//! takes every contact without restitution and with Coulomb's friction, solved jointly, and emits
+//! the quadratic through the velocities at both ends, so that detection, queue and impacts stay as
+//! they are. Normals turn within a step; what that adds or takes is put right by holding the energy
+//! of a ball that leans on nothing else to what friction leaves of it. Error: first order in the
+//! step for the moment of leaving a rim, second for its energy.
+
+use super::EventDriven;
+use super::motion::{self, Start};
+use super::predict::Changed;
+use super::segment::{Course, Segment};
+use super::terrain::Feature;
+use crate::physics::laws::Mover;
+use crate::physics::laws::cloth::{self, Carrying};
+use crate::physics::laws::cluster::{self, Touch};
+use crate::physics::{Contact as Law, PhysicsError, tolerance};
+use crate::units::Seconds;
+use glam::DVec3;
+use smallvec::SmallVec;
+
+/// What is no farther than this touches [m].
+pub(super) const TOUCH_M: f64 = 1e-6;
+
+/// A contact that parts faster than this is none [m/s].
+const PARTS_M_S: f64 = 1e-2;
+
+type Contacts = SmallVec<[(Feature, DVec3, f64); 4]>;
+
+impl EventDriven {
+    /// A ball goes on in lasting contact as `mover` says.
+    pub(super) fn begin_lasting_with(&mut self, at: Seconds, index: usize, mover: &Mover) {
+        self.watch_rails(index, at);
+        self.close_segment(at, index);
+        let from = self.bodies[index].segment;
+        self.bodies[index].turn_into(Segment {
+            start_s: at,
+            position: from.position_at(at),
+            velocity: mover.velocity,
+            angular_velocity: mover.angular_velocity,
+            orientation: from.orientation_at(at),
+            course: Course::Lasting,
+            ..from
+        });
+        self.begin_lasting(at, index);
+    }
+
+    /// A ball goes on in lasting contact: its first piece, up to the next step of all.
+    pub(super) fn begin_lasting(&mut self, at: Seconds, index: usize) {
+        let step = tolerance::LASTING_STEP_S;
+        let mut next = (libm::floor(at / step) + 1.0) * step;
+        if next - at < 1e-9 {
+            next += step;
+        }
+        if self.bodies[index].segment.start_s < at {
+            self.watch_rails(index, at);
+            self.close_segment(at, index);
+            let state = self.state_at(at, index);
+            self.bodies[index].turn_into(state);
+        }
+        self.bodies[index].quiet_since = at;
+        self.bodies[index].target_j = f64::INFINITY;
+        self.pieces(at, &[index], next);
+        if self.bodies[index].segment.course == Course::Lasting {
+            self.lasting_at = self.lasting_at.min(next);
+        }
+    }
+
+    fn state_at(&self, at: Seconds, index: usize) -> Segment {
+        let from = &self.bodies[index].segment;
+        Segment {
+            start_s: at,
+            position: from.position_at(at),
+            velocity: from.velocity_at(at),
+            angular_velocity: from.angular_velocity_at(at),
+            orientation: from.orientation_at(at),
+            ..*from
+        }
+    }
+
+    /// The next step of all balls in lasting contact.
+    pub(super) fn step_lasting(&mut self, at: Seconds) -> Result<(), PhysicsError> {
+        self.work.steps += 1;
+        let mut group: Changed = (0..self.bodies.len())
+            .filter(|index| {
+                let body = &self.bodies[*index];
+                body.in_play() && body.segment.course == Course::Lasting
+            })
+            .collect();
+        // Balls that they lean on, or that lean on them, join.
+        let mut place = 0;
+        while place < group.len() {
+            let index = group[place];
+            let centre = self.bodies[index].segment.position_at(at);
+            for other in 0..self.bodies.len() {
+                let it = &self.bodies[other];
+                let reach = self.bodies[index].ball.radius_m + it.ball.radius_m + TOUCH_M;
+                let line = it.segment.position_at(at) - centre;
+                let leans = line.z.abs() > 1e-4 * reach && line.length() <= reach;
+                if leans && it.solid() && !group.contains(&other) && it.ball.flags.integrate {
+                    self.bodies[other].quiet_since = at;
+                    self.bodies[other].target_j = f64::INFINITY;
+                    group.push(other);
+                }
+            }
+            place += 1;
+        }
+        group.sort_unstable();
+        for index in &group {
+            self.check_finite(at, *index)?;
+            self.watch_rails(*index, at);
+            self.close_segment(at, *index);
+            let state = self.state_at(at, *index);
+            self.bodies[*index].turn_into(Segment { course: Course::Lasting, ..state });
+        }
+        let step = tolerance::LASTING_STEP_S;
+        let next = (libm::floor(at / step + 0.5) + 1.0) * step;
+        self.pieces(at, &group, next);
+        let lasts = |index: &usize| self.bodies[*index].segment.course == Course::Lasting;
+        self.lasting_at = if group.iter().any(lasts) { next } else { f64::INFINITY };
+        self.predict(at, &group);
+        for index in &group {
+            if self.bodies[*index].in_play() {
+                self.sinks_for_good(at, *index);
+            }
+        }
+        Ok(())
+    }
+
+    /// Emits the pieces of a group of balls up to `until`; balls that nothing unusual holds any more
+    /// go on by closed forms. Their segments must start at `at`.
+    fn pieces(&mut self, at: Seconds, group: &[usize], until: Seconds) {
+        let dt = until - at;
+        let gravity = DVec3::NEG_Z * self.parameters.gravity_m_s2;
+        let mut contacts: SmallVec<[Contacts; 4]> = SmallVec::new();
+        for index in group {
+            let found = self.lie_on(*index);
+            contacts.push(found);
+        }
+        let pairs = self.leaning_pairs(group);
+
+        // Who is free of it?
+        let mut stay: Changed = Changed::new();
+        let mut kept: SmallVec<[Contacts; 4]> = SmallVec::new();
+        for (place, index) in group.iter().enumerate() {
+            let leans = pairs.iter().any(|(a, b, _)| a == index || b == index);
+            if leans || !self.leave_lasting(*index, &contacts[place]) {
+                stay.push(*index);
+                kept.push(contacts[place].clone());
+            }
+        }
+        if stay.is_empty() {
+            return;
+        }
+
+        // Forces, then all contacts at once.
+        let starts: SmallVec<[Mover; 4]> = stay
+            .iter()
+            .map(|index| {
+                let body = &self.bodies[*index];
+                Mover::new(&body.ball, body.segment.velocity, body.segment.angular_velocity)
+            })
+            .collect();
+        let mut movers = starts.clone();
+        for (mover, index) in movers.iter_mut().zip(&stay) {
+            if self.bodies[*index].ball.flags.gravity && mover.inverse_mass > 0.0 {
+                mover.velocity += gravity * dt;
+            }
+        }
+        let pushed = movers.clone();
+        let mut touches: Vec<Touch> = Vec::new();
+        for (place, contacts) in kept.iter().enumerate() {
+            for (feature, normal, _) in contacts {
+                let law = self.parameters.surface(self.terrain.surface(*feature));
+                let touch = Touch::new(place, None, *normal, Law { restitution: 0.0, ..law });
+                touches.push(Touch { carries: true, ..touch });
+            }
+        }
+        let place_of = |index: usize| stay.iter().position(|other| *other == index);
+        for (a, b, normal) in &pairs {
+            if let (Some(a), Some(b)) = (place_of(*a), place_of(*b)) {
+                let law = Law { restitution: 0.0, ..self.parameters.ball };
+                let touch = Touch::new(a, Some(b), *normal, law);
+                touches.push(Touch { carries: true, ..touch });
+            }
+        }
+        cluster::resolve(&mut movers, &mut touches);
+        let lost = self.friction_losses(&stay, &touches, &pushed, &mut movers, dt);
+
+        for (place, index) in stay.iter().enumerate() {
+            let body = &mut self.bodies[*index];
+            let (start, end) = (&starts[place], &movers[place]);
+            let moved = end.velocity.length().max(end.angular_velocity.length() * start.radius_m);
+            let from = body.segment;
+            let energy = start.kinetic_j()
+                + body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
+            body.target_j = energy - lost[place];
+            body.held = kept[place].iter().map(|(feature, _, _)| *feature).collect();
+            if moved > tolerance::REST_M_S {
+                body.quiet_since = at;
+            }
+            if at - body.quiet_since >= tolerance::SLEEP_S {
+                // It sleeps where it is.
+                let kinetic = start.kinetic_j();
+                let momentum = start.velocity * body.ball.mass_kg;
+                body.leans = true;
+                body.turn_into(Segment::still(at, from.position, from.orientation));
+                body.leans = true;
+                self.ledger.face_j += kinetic;
+                self.ledger.momentum.table -= momentum;
+            } else {
+                let normal = kept[place].first().map_or(DVec3::Z, |(_, normal, _)| *normal);
+                body.turn_into(Segment {
+                    end_s: until,
+                    acceleration: (end.velocity - from.velocity) / dt,
+                    angular_acceleration: (end.angular_velocity - from.angular_velocity) / dt,
+                    normal,
+                    spin_deceleration: 0.0,
+                    course: Course::Lasting,
+                    ..from
+                });
+            }
+            self.note_track(*index);
+        }
+    }
+
+    /// What a ball touches; lays it on that exactly and turns its velocity along it.
+    fn lie_on(&mut self, index: usize) -> Contacts {
+        let body = &self.bodies[index];
+        let (radius, mut centre) = (body.ball.radius_m, body.segment.position);
+        let mut velocity = body.segment.velocity;
+        let parts = |(_, normal, _): &(Feature, DVec3, f64), v: DVec3| v.dot(*normal) > PARTS_M_S;
+        let reach = radius + 4.0 * TOUCH_M;
+        let mut contacts: Contacts = self.terrain.near(centre, reach);
+        contacts.retain(|contact| !parts(contact, velocity));
+        for (_, normal, distance) in &contacts {
+            centre += *normal * (radius - distance);
+        }
+        if contacts.len() > 1 {
+            // Moving out of one may move into another.
+            for (_, normal, distance) in self.terrain.near(centre, radius) {
+                centre += normal * (radius - distance).max(0.0);
+            }
+        }
+        if let [(_, normal, _)] = contacts[..] {
+            // Along the surface, if gravity holds it there.
+            let kick = -self.parameters.gravity_m_s2 * normal.z * tolerance::LASTING_STEP_S;
+            let out = velocity.dot(normal);
+            if out + kick < 0.0 {
+                let along = velocity - normal * out;
+                velocity = along.normalize_or_zero() * velocity.length();
+            } else {
+                contacts.clear();
+            }
+        } else {
+            for (_, normal, _) in &contacts {
+                velocity -= *normal * velocity.dot(*normal).min(0.0);
+            }
+        }
+
+        // The energy that friction has left, for a ball that leans on nothing but the terrain.
+        let body = &self.bodies[index];
+        let (mass, g) = (body.ball.mass_kg, self.parameters.gravity_m_s2);
+        let before = Mover::new(&body.ball, body.segment.velocity, body.segment.angular_velocity);
+        let kinetic = Mover { velocity, ..before }.kinetic_j();
+        let wanted = body.target_j - mass * g * centre.z;
+        let mut factor = 1.0;
+        if kinetic > 1e-12 && wanted.is_finite() {
+            let ratio = (wanted / kinetic).clamp(0.0, 1.0 + 1e-2);
+            factor = if contacts.len() == 1 { ratio.sqrt() } else { ratio.min(1.0).sqrt() };
+        } else if wanted.is_infinite() {
+            // At the start nothing may be gained.
+            let had = before.kinetic_j() + mass * g * body.segment.position.z;
+            let ratio = ((had - mass * g * centre.z) / kinetic.max(1e-300)).clamp(0.0, 1.0);
+            factor = ratio.sqrt();
+        }
+        let spin = body.segment.angular_velocity * factor;
+        velocity *= factor;
+        let after = Mover { velocity, angular_velocity: spin, ..before };
+        self.ledger.integration_j += after.kinetic_j() - before.kinetic_j()
+            + mass * g * (centre.z - body.segment.position.z);
+        self.ledger.momentum.table += mass * (velocity - before.velocity);
+        let body = &mut self.bodies[index];
+        body.segment.position = centre;
+        body.segment.velocity = velocity;
+        body.segment.angular_velocity = spin;
+        contacts
+    }
+
+    /// Pairs of a group that lean on each other.
+    fn leaning_pairs(&self, group: &[usize]) -> SmallVec<[(usize, usize, DVec3); 8]> {
+        let mut pairs = SmallVec::new();
+        for (place, a) in group.iter().enumerate() {
+            for b in &group[place + 1..] {
+                let (one, two) = (&self.bodies[*a], &self.bodies[*b]);
+                let line = one.segment.position - two.segment.position;
+                let reach = one.ball.radius_m + two.ball.radius_m + 4.0 * TOUCH_M;
+                let normal = line.normalize_or(DVec3::Z);
+                let parts = (one.segment.velocity - two.segment.velocity).dot(normal) > PARTS_M_S;
+                if line.length() <= reach && !parts {
+                    pairs.push((*a, *b, normal));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Lets a ball go on by closed forms, if there are any for what holds it.
+    fn leave_lasting(&mut self, index: usize, contacts: &Contacts) -> bool {
+        let segment = self.bodies[index].segment;
+        match contacts[..] {
+            [] => {
+                self.bodies[index].held.clear();
+                let next = motion::flying(&segment, &self.bodies[index].ball, &self.parameters);
+                self.turn_into(index, next);
+                true
+            }
+            [(feature @ (Feature::Plane(_) | Feature::Patch(_)), normal, _)] => {
+                let law = self.parameters.surface(self.terrain.surface(feature));
+                let start = Start { segment, normal, friction: law.friction, hops_s: 0.0 };
+                let ball = &self.bodies[index].ball;
+                let Some(next) = motion::carried(&start, ball, &self.parameters) else {
+                    return false;
+                };
+                self.bodies[index].held = SmallVec::from_slice(&[feature]);
+                self.book_slip(index, &segment, &next);
+                self.turn_into(index, next);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// What friction takes from each ball in a step [J]; applies rolling resistance.
+    fn friction_losses(
+        &self,
+        stay: &[usize],
+        touches: &[Touch],
+        pushed: &[Mover],
+        movers: &mut [Mover],
+        dt: Seconds,
+    ) -> SmallVec<[f64; 4]> {
+        let mut lost: SmallVec<[f64; 4]> = stay.iter().map(|_| 0.0).collect();
+        for touch in touches {
+            let slip = |movers: &[Mover]| {
+                let own = movers[touch.a].surface_velocity(touch.normal);
+                match touch.b {
+                    Some(b) => own - movers[b].surface_velocity(-touch.normal),
+                    None => own,
+                }
+            };
+            let tangential = touch.impulse - touch.normal * touch.impulse.dot(touch.normal);
+            let loss = -0.5 * tangential.dot(slip(pushed) + slip(movers));
+            match touch.b {
+                Some(b) => {
+                    lost[touch.a] += 0.5 * loss;
+                    lost[b] += 0.5 * loss;
+                }
+                None => lost[touch.a] += loss,
+            }
+        }
+        for (place, mover) in movers.iter_mut().enumerate() {
+            let pressed = |touch: &&Touch| touch.impulse.dot(touch.normal);
+            let own = touches.iter().filter(|touch| touch.a == place && touch.b.is_none());
+            let Some(touch) = own.max_by(|a, b| pressed(a).total_cmp(&pressed(b))) else {
+                continue;
+            };
+            let slip = mover.surface_velocity(touch.normal);
+            let slip = slip - touch.normal * slip.dot(touch.normal);
+            let law = Carrying {
+                friction: touch.friction,
+                rolling_resistance: self.parameters.rolling_resistance,
+                spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
+            };
+            let rolled = f64::from(slip.length() <= tolerance::ROLLING_SLIP_M_S);
+            let impulse = touch.impulse.dot(touch.normal);
+            lost[place] += cloth::resist(mover, touch.normal, impulse, rolled, &law, dt);
+        }
+        lost
+    }
+}

@@ -1,0 +1,297 @@
+//! The first thing a ball meets on its way over the terrain.
+//!
+//! The path is walked through the grid: cells in which nothing is in reach are passed in leaps; in
+//! the others the stretch of path inside the cell is held against what the cell lists, each with a
+//! box first and the exact polynomial then. The walk ends at the first meeting.
+
+use super::closing::{self, Relative};
+use super::segment::{Course, Segment};
+use super::terrain::{Feature, Terrain};
+use crate::physics::Work;
+use crate::physics::fixed_step::spatial_hash::Bounds;
+use crate::units::Seconds;
+use glam::{DVec3, IVec3};
+
+/// What happens to a ball on the terrain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// When [s].
+    pub at: Seconds,
+    /// What it meets, or leaves.
+    pub feature: Feature,
+    /// Unit normal from the feature to the centre.
+    pub normal: DVec3,
+    /// The ball meets nothing: what carries it ends here.
+    pub leaves: bool,
+}
+
+/// The first meeting of a ball on `segment` from `from` to `until`, both in seconds of the world.
+/// `held` are the features that it lies on: they, and what belongs to them, are not met.
+pub fn first_meeting(
+    terrain: &Terrain,
+    segment: &Segment,
+    radius_m: f64,
+    from: Seconds,
+    until: Seconds,
+    held: &[Feature],
+    work: &mut Work,
+) -> Option<Meeting> {
+    if segment.velocity == DVec3::ZERO && segment.acceleration == DVec3::ZERO {
+        return None;
+    }
+    let mut first: Option<Meeting> = None;
+    let (position, velocity) = (segment.position_at(from), segment.velocity_at(from));
+    let acceleration = segment.acceleration;
+
+    for (number, plane) in terrain.planes.iter().enumerate() {
+        let feature = Feature::Plane(number as u32);
+        if held.contains(&feature) {
+            continue;
+        }
+        let horizon = first.map_or(until, |meeting| meeting.at) - from;
+        let gap = (position - plane.point).dot(plane.normal) - radius_m;
+        let (v, a) = (velocity.dot(plane.normal), acceleration.dot(plane.normal));
+        if v >= 0.0 && a >= 0.0 {
+            continue;
+        }
+        work.face_tests += 1;
+        if let Some(time) = closing::height(gap, v, a, horizon) {
+            first = Some(Meeting { at: from + time, feature, normal: plane.normal, leaves: false });
+        }
+    }
+    if terrain.has_mesh() {
+        let until = first.map_or(until, |meeting| meeting.at);
+        let walk = Walk { terrain, segment, radius_m, held, carrier: carrier(segment, held) };
+        if let Some(meeting) = walk.run(from, until, work) {
+            first = Some(meeting);
+        }
+    }
+    first
+}
+
+/// The patch that a ball slides or rolls on.
+fn carrier(segment: &Segment, held: &[Feature]) -> Option<u32> {
+    match (segment.course, held) {
+        (Course::Sliding | Course::Rolling, [Feature::Patch(patch)]) => Some(*patch),
+        _ => None,
+    }
+}
+
+struct Walk<'a> {
+    terrain: &'a Terrain,
+    segment: &'a Segment,
+    radius_m: f64,
+    held: &'a [Feature],
+    carrier: Option<u32>,
+}
+
+/// A stretch of the path inside one cell.
+struct Slice {
+    length: Seconds,
+    position: DVec3,
+    velocity: DVec3,
+    acceleration: DVec3,
+    bounds: Bounds,
+}
+
+impl Walk<'_> {
+    fn run(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
+        let on_main = self.held.len() == 1 && self.held[0] == self.terrain.main_patch();
+        let mut now = from;
+        let mut cell = self.terrain.cell_of(self.segment.position_at(now));
+        loop {
+            let leap = self.terrain.leap(cell, on_main);
+            let around = (leap - 1).max(0);
+            let (low, high) = (cell - around, cell + around);
+            let (exit, next) = self.exit(now, until, low, high);
+            if leap == 0
+                && let Some(meeting) = self.search(cell, now, exit, work)
+            {
+                return Some(meeting);
+            }
+            let (axis, up) = next?;
+            now = exit;
+            // The other coordinates follow from where the path is; this one is known.
+            let inside = self.terrain.cell_of(self.segment.position_at(now)).clamp(low, high);
+            cell = inside;
+            cell[axis] = if up { high[axis] + 1 } else { low[axis] - 1 };
+            let beyond = if up { self.terrain.cells_along(axis) <= cell[axis] } else { cell[axis] < 0 };
+            if beyond && !self.returns(now, axis, up) {
+                return None;
+            }
+        }
+    }
+
+    /// Whether a path that leaves the grid along an axis may come back.
+    fn returns(&self, now: Seconds, axis: usize, up: bool) -> bool {
+        let v = self.segment.velocity_at(now)[axis];
+        let a = self.segment.acceleration[axis];
+        let sign = if up { 1.0 } else { -1.0 };
+        sign * v < 0.0 || sign * a < 0.0
+    }
+
+    /// When the path leaves a block of cells, and through which side; none if it ends inside.
+    fn exit(
+        &self,
+        now: Seconds,
+        until: Seconds,
+        low: IVec3,
+        high: IVec3,
+    ) -> (Seconds, Option<(usize, bool)>) {
+        let (min, max) = self.terrain.block(low, high);
+        let position = self.segment.position_at(now);
+        let velocity = self.segment.velocity_at(now);
+        let acceleration = self.segment.acceleration;
+        let mut best = (until, None);
+        for axis in 0..3 {
+            let (x, v, a) = (position[axis], velocity[axis], acceleration[axis]);
+            if v == 0.0 && a == 0.0 {
+                continue;
+            }
+            for (up, gap, v, a) in [(true, max[axis] - x, -v, -a), (false, x - min[axis], v, a)] {
+                if gap.is_finite()
+                    && let Some(time) = closing::falling_quadratic(gap, v, a, best.0 - now)
+                    && (now + time < best.0 || best.1.is_none())
+                {
+                    best = (now + time, Some((axis, up)));
+                }
+            }
+        }
+        best
+    }
+
+    fn search(&self, cell: IVec3, now: Seconds, exit: Seconds, work: &mut Work) -> Option<Meeting> {
+        let length = exit - now;
+        let position = self.segment.position_at(now);
+        let velocity = self.segment.velocity_at(now);
+        let control = position + velocity * (0.5 * length);
+        let end = self.segment.position_at(exit);
+        let bounds = Bounds::swept(position, end, self.radius_m)
+            .join(&Bounds::swept(control, control, self.radius_m));
+        let acceleration = self.segment.acceleration;
+        let mut slice = Slice { length, position, velocity, acceleration, bounds };
+        let mut best: Option<Meeting> = None;
+        let mut note = |slice: &mut Slice, time: Seconds, feature, normal, leaves| {
+            slice.length = time;
+            best = Some(Meeting { at: now + time, feature, normal, leaves });
+        };
+
+        for group in self.terrain.groups_in(cell) {
+            let feature = Feature::Patch(group.patch);
+            if !group.bounds.overlap(&slice.bounds) || self.is_held(feature) {
+                continue;
+            }
+            if let Some((time, normal)) = self.patch(group, &slice, work) {
+                note(&mut slice, time, feature, normal, false);
+            }
+        }
+        for number in self.terrain.edges_in(cell) {
+            if !self.terrain.edge_bounds(*number).overlap(&slice.bounds) {
+                continue;
+            }
+            let feature = Feature::Edge(*number);
+            if let Some(patch) = self.carrier
+                && let Some(time) = self.crossing(*number, patch, &slice)
+            {
+                note(&mut slice, time, feature, self.segment.normal, true);
+            }
+            if self.terrain.edges[*number as usize].flat || self.is_held(feature) {
+                continue;
+            }
+            if let Some((time, normal)) = self.edge(*number, &slice, work) {
+                note(&mut slice, time, feature, normal, false);
+            }
+        }
+        for number in self.terrain.corners_in(cell) {
+            let point = self.terrain.corners[*number as usize].point;
+            let point_box = Bounds { min: point, max: point };
+            let feature = Feature::Corner(*number);
+            if !point_box.overlap(&slice.bounds) || self.is_held(feature) {
+                continue;
+            }
+            work.face_tests += 1;
+            let motion = slice.relative_to(point);
+            if let Some(time) = closing::spheres(&motion, self.radius_m, slice.length) {
+                let normal = (slice.at(time) - point).normalize_or(DVec3::Z);
+                note(&mut slice, time, feature, normal, false);
+            }
+        }
+        best
+    }
+
+    fn is_held(&self, feature: Feature) -> bool {
+        self.held.iter().any(|held| self.terrain.belongs(feature, *held))
+    }
+
+    fn patch(
+        &self,
+        group: &super::terrain::Group,
+        slice: &Slice,
+        work: &mut Work,
+    ) -> Option<(Seconds, DVec3)> {
+        let patch = &self.terrain.patches[group.patch as usize];
+        let mut h = patch.normal.dot(slice.position) - patch.offset;
+        let mut v = patch.normal.dot(slice.velocity);
+        let mut a = patch.normal.dot(slice.acceleration);
+        let mut normal = patch.normal;
+        // Both sides are solid: the ball is on the side of its centre.
+        if h < 0.0 {
+            (h, v, a, normal) = (-h, -v, -a, -normal);
+        }
+        if v >= 0.0 && a >= 0.0 {
+            return None;
+        }
+        let end = h + (v + 0.5 * a * slice.length) * slice.length;
+        if h > self.radius_m && end > self.radius_m && (a <= 0.0 || v + a * slice.length <= 0.0) {
+            return None;
+        }
+        work.face_tests += 1;
+        let time = closing::height(h - self.radius_m, v, a, slice.length)?;
+        self.terrain.holds(group, slice.at(time)).then_some((time, normal))
+    }
+
+    fn edge(&self, number: u32, slice: &Slice, work: &mut Work) -> Option<(Seconds, DVec3)> {
+        let edge = &self.terrain.edges[number as usize];
+        work.face_tests += 1;
+        let across = |v: DVec3| v - edge.along * v.dot(edge.along);
+        let motion = Relative {
+            offset: across(slice.position - edge.from),
+            velocity: across(slice.velocity),
+            acceleration: across(slice.acceleration),
+        };
+        let time = closing::spheres(&motion, self.radius_m, slice.length)?;
+        let centre = slice.at(time);
+        let along = (centre - edge.from).dot(edge.along);
+        if !(0.0 <= along && along <= edge.length_m) {
+            return None;
+        }
+        Some((time, (centre - edge.from - edge.along * along).normalize_or(DVec3::Z)))
+    }
+
+    /// When the foot of a carried ball crosses an edge of the patch that carries it, outwards.
+    fn crossing(&self, number: u32, patch: u32, slice: &Slice) -> Option<Seconds> {
+        let edge = &self.terrain.edges[number as usize];
+        let (_, inwards) = edge.sides.iter().find(|(side, _)| *side == patch)?;
+        let offset = slice.position - edge.from;
+        let (h, v, a) =
+            (offset.dot(*inwards), slice.velocity.dot(*inwards), slice.acceleration.dot(*inwards));
+        // A foot that is beyond the line already crosses it nowhere.
+        let time = if h < -1e-9 { None } else { closing::falling_quadratic(h, v, a, slice.length) };
+        let along = (slice.at(time?) - edge.from).dot(edge.along);
+        (0.0 <= along && along <= edge.length_m).then_some(time?)
+    }
+}
+
+impl Slice {
+    fn at(&self, time: Seconds) -> DVec3 {
+        self.position + (self.velocity + self.acceleration * (0.5 * time)) * time
+    }
+
+    fn relative_to(&self, point: DVec3) -> Relative {
+        Relative {
+            offset: self.position - point,
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+        }
+    }
+}
