@@ -80,7 +80,7 @@ pub const PRESS_M: f64 = 1e-7;
 
 /// A hop that begins slower than this is not followed; how long the rest of the series lasts is
 /// added in closed form [m/s]. Larger: paths differ by the height of the last hops.
-pub const HOP_M_S: f64 = 2e-5;
+pub const HOP_M_S: f64 = 5e-5;
 
 /// Smaller slip goes at once [m/s]; else 1e-7 m/s of it would breed sliding for 1e-7 s.
 pub const SLIP_M_S: f64 = 1e-5;

@@ -5,6 +5,8 @@
 
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+/// The exact solver over many random shots.
+mod event_driven;
 /// Order, delay and interest of the event manager.
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.

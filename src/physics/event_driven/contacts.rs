@@ -16,6 +16,9 @@ use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
 
+/// How far a ball that turns about a rim is put over it [m].
+const OVER_M: f64 = 1e-9;
+
 /// A feature that a ball touches besides the one that it meets.
 type Touched = SmallVec<[(Feature, DVec3); 2]>;
 
@@ -109,6 +112,17 @@ impl EventDriven {
         if !body.ball.flags.integrate {
             start.velocity = DVec3::ZERO;
             start.angular_velocity = DVec3::ZERO;
+        }
+        // Out of what it was pressed into; what that lifts it, it pays.
+        let lift_j = body.ball.mass_kg * self.parameters.gravity_m_s2 * shift.z;
+        if shift.z != 0.0 && body.ball.flags.gravity && body.ball.flags.integrate {
+            let kinetic = mover.kinetic_j();
+            let factor = if kinetic > lift_j { (1.0 - lift_j / kinetic).sqrt() } else { 0.0 };
+            let factor = factor.min(1.0);
+            self.ledger.integration_j += lift_j - (1.0 - factor * factor) * kinetic;
+            self.ledger.momentum.table += start.velocity * ((factor - 1.0) * body.ball.mass_kg);
+            start.velocity *= factor;
+            start.angular_velocity *= factor;
         }
         if body.held.is_empty() {
             let next = motion::flying(&start, &body.ball, &self.parameters);
@@ -229,7 +243,9 @@ impl EventDriven {
         if outwards * outwards >= into * self.bodies[index].ball.radius_m {
             self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
         } else {
-            self.begin_lasting(at, index);
+            // Over the edge by more than rounding, or the patch would seem to carry it still.
+            let over = inwards.unwrap_or(DVec3::ZERO) * -OVER_M;
+            self.begin_lasting_with(at, index, &mover, over);
         }
         self.predict(at, &[index]);
         Ok(())
@@ -363,7 +379,7 @@ impl EventDriven {
         let carries = normal.z > 1e-9 && self.bodies[index].ball.flags.gravity && gravity > 0.0;
         let lands = restitution == 0.0 && carries && self.bodies[index].held.is_empty();
         if busy {
-            self.begin_lasting_with(at, index, mover);
+            self.begin_lasting_with(at, index, mover, DVec3::ZERO);
         } else if lands && self.flat_normal(feature, DVec3::ZERO).is_some() {
             // It lies on the surface exactly, whatever rounding says.
             let centre = self.bodies[index].segment.position_at(at);
@@ -387,7 +403,7 @@ impl EventDriven {
             self.bodies[index].held = SmallVec::from_slice(&[feature]);
             self.go_on(at, index, mover, normal * (radius - height), hops_s);
         } else if lands {
-            self.begin_lasting_with(at, index, mover);
+            self.begin_lasting_with(at, index, mover, DVec3::ZERO);
         } else {
             let shift = self.way_out(at, index, normal, feature);
             self.go_on(at, index, mover, shift, 0.0);
@@ -482,7 +498,7 @@ impl EventDriven {
         let busy = self.is_busy(at, a) | self.is_busy(at, b);
         for (index, mover, shift) in [(a, &p, shifts.0), (b, &q, shifts.1)] {
             if busy && self.pressed(at, index) {
-                self.begin_lasting_with(at, index, mover);
+                self.begin_lasting_with(at, index, mover, DVec3::ZERO);
             } else {
                 self.go_on(at, index, mover, shift, 0.0);
             }
@@ -657,7 +673,7 @@ impl EventDriven {
                 continue;
             }
             if self.is_busy(at, *index) && (self.pressed(at, *index) || !faces.is_empty()) {
-                self.begin_lasting_with(at, *index, &movers[place]);
+                self.begin_lasting_with(at, *index, &movers[place], DVec3::ZERO);
             } else {
                 self.go_on(at, *index, &movers[place], depths[place], 0.0);
             }

@@ -30,14 +30,20 @@ const PARTS_M_S: f64 = 1e-2;
 type Contacts = SmallVec<[(Feature, DVec3, f64); 4]>;
 
 impl EventDriven {
-    /// A ball goes on in lasting contact as `mover` says.
-    pub(super) fn begin_lasting_with(&mut self, at: Seconds, index: usize, mover: &Mover) {
+    /// A ball goes on in lasting contact as `mover` says, moved by `shift`.
+    pub(super) fn begin_lasting_with(
+        &mut self,
+        at: Seconds,
+        index: usize,
+        mover: &Mover,
+        shift: DVec3,
+    ) {
         self.watch_rails(index, at);
         self.close_segment(at, index);
         let from = self.bodies[index].segment;
         self.bodies[index].turn_into(Segment {
             start_s: at,
-            position: from.position_at(at),
+            position: from.position_at(at) + shift,
             velocity: mover.velocity,
             angular_velocity: mover.angular_velocity,
             orientation: from.orientation_at(at),
