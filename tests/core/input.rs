@@ -1,0 +1,5 @@
+//! A person at mouse and keyboard, from raw reports to the game.
+
+mod desk;
+
+mod stroke;
