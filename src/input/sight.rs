@@ -21,10 +21,12 @@ pub(super) fn object_balls(table: &Snapshot) -> impl Iterator<Item = DVec3> + '_
     table.on_table().filter(|ball| ball.id != BallId::CUE).map(|ball| ball.position)
 }
 
-/// Where a turn's first aim points: at the rack's apex on a break, else at the nearest ball that
-/// may be met first, and along the table if there is none.
+/// Where a turn's first aim points: at the rack's apex on a break, else (or if nobody racked) at
+/// the nearest ball that may be met first, and along the table if there is none.
 pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: DVec2) -> DVec2 {
-    let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break);
+    let is_racked =
+        |apex: &DVec2| object_balls(table).any(|ball| ball.truncate().distance(*apex) < ball.z);
+    let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break).filter(is_racked);
     let nearest = || {
         let may_be_met = |id: &BallId| turn.legal_first.contains(id);
         let balls = table.on_table().filter(|ball| may_be_met(&ball.id));

@@ -62,3 +62,112 @@ fn the_path_of_a_stroke_has_no_jumps_and_keeps_its_limits() {
     }
     assert!(count > 100);
 }
+
+#[test]
+fn letting_go_losing_the_keyboard_and_pausing_end_a_stroke_without_a_hit() {
+    let enders: [&[RawInput]; 3] = [
+        &[RawInput::Button { button: Button::Left, down: false }],
+        &[RawInput::FocusLost],
+        &[RawInput::Key { key: Key::Escape, down: true }],
+    ];
+    for ender in enders {
+        let mut desk = at_the_ball();
+        desk.button(Button::Left, true);
+        desk.sweep(-1.0, 200, 125);
+        desk.sweep(2.0, 60, 125);
+        assert_eq!(desk.mode(), HumanMode::Stroking);
+        assert!(desk.table().cue.unwrap().solid);
+        desk.tick(ender);
+        assert!(!desk.table().cue.unwrap().solid, "{ender:?}");
+        // The hand goes on, but it holds nothing.
+        for _ in 0..300 {
+            desk.moved(0.0, 0.01);
+        }
+        assert_eq!(desk.tips(), 0, "{ender:?}");
+        assert_ne!(desk.mode(), HumanMode::Stroking);
+    }
+}
+
+#[test]
+fn the_interface_never_hits_twice() {
+    let mut random = Pcg64Mcg::seed_from_u64(5);
+    let table = Arc::new(Table::preset("pool-9ft").unwrap());
+    for i in 0..200 {
+        let (x, y) = (random.random_range(-1.2..1.2), random.random_range(-0.6..0.6));
+        let scene = free_play(&[(0, x, y), (1, 1.24, 0.0)]);
+        let mut desk = Desk::at(&scene, table.clone(), Pace::EveryTick);
+        desk.wait(2);
+        desk.turn_to(random.random_range(-3.1..3.1));
+        desk.tick(&[
+            RawInput::Button { button: Button::Right, down: true },
+            RawInput::Moved {
+                right: random.random_range(-0.3..0.3),
+                up: random.random_range(-0.3..0.3),
+            },
+            RawInput::Button { button: Button::Right, down: false },
+        ]);
+        desk.hold(Key::PageUp, random.random_range(1..2500));
+        let pull_m = random.random_range(0.05..0.4);
+        let speed_m_s = random.random_range(0.2..9.0);
+        let rate_hz = RATES_HZ[random.random_range(0..3)];
+        desk.stroke(pull_m, speed_m_s, rate_hz);
+        // The hand follows through, and the cue comes back only when all is at rest.
+        for _ in 0..80 {
+            desk.moved(0.0, 0.02);
+        }
+        assert_eq!(desk.tips(), 1, "stroke {i}: {:?}", desk.view().aim);
+        assert!(desk.table().cue.is_none_or(|cue| !cue.solid));
+    }
+}
+
+/// Where the cue ball goes after a stroke with this offset: its direction after the first and
+/// after the second cushion would depend on the table, so the spin itself is looked at.
+fn spin_after(side: f64, height: f64) -> (glam::DVec3, glam::DVec3) {
+    let mut desk = at_the_ball();
+    desk.turn_to(0.0);
+    let per_height = hapticbillard::input::feel::OFFSET_PER_HEIGHT;
+    desk.button(Button::Right, true);
+    desk.moved(side / per_height, height / per_height);
+    desk.button(Button::Right, false);
+    let aim = desk.view().aim;
+    assert!((aim.side_offset - side).abs() < 1e-12 && (aim.height_offset - height).abs() < 1e-12);
+    desk.stroke(0.3, 2.0, 125);
+    assert_eq!(desk.tips(), 1);
+    (desk.cue_ball().velocity, desk.cue_ball().angular_velocity)
+}
+
+#[test]
+fn a_tip_right_of_the_middle_turns_the_ball_as_right_english_does() {
+    let (velocity, right) = spin_after(0.3, 0.0);
+    // Struck on the right, the ball turns anticlockwise seen from above and leaves to the left.
+    assert!(right.z > 20.0, "{right}");
+    assert!(velocity.y > 0.0, "{velocity}");
+    let (velocity, left) = spin_after(-0.3, 0.0);
+    assert!(left.z < -20.0 && velocity.y < 0.0, "{left} {velocity}");
+    // Above the middle it rolls ahead, below it turns backwards: about +y is forwards along +x.
+    assert!(spin_after(0.0, 0.3).1.y > 20.0);
+    assert!(spin_after(0.0, -0.4).1.y < -20.0);
+}
+
+#[test]
+fn the_strength_that_is_shown_is_that_of_the_last_contact() {
+    let mut desk = at_the_ball();
+    desk.stroke(0.3, 1.5, 125);
+    let struck = desk.view().strength_m_s;
+    desk.wait(200);
+    assert_eq!((desk.mode(), desk.view().strength_m_s), (HumanMode::Watching, struck));
+    assert!((struck - 1.5).abs() < 0.05);
+}
+
+#[test]
+fn a_touch_too_soft_to_be_seen_ends_the_shot_as_well() {
+    let mut desk = at_the_ball();
+    desk.button(Button::Left, true);
+    desk.sweep(0.0297, 1000, 1000);
+    desk.sweep(0.0005, 4000, 1000);
+    assert_eq!(desk.tips(), 1);
+    assert!(desk.view().strength_m_s < 0.001, "{}", desk.view().strength_m_s);
+    desk.wait_until(3000, |desk| desk.verdicts().len() == 1);
+    desk.wait(3);
+    assert_eq!(desk.mode(), HumanMode::Aiming);
+}
