@@ -239,9 +239,9 @@ impl Desk {
     pub fn stroke(&mut self, pull_m: f64, speed_m_s: f64, rate_hz: u32) {
         self.button(Button::Left, true);
         let way_m = pull_m - ADDRESS_GAP_M;
-        let back_ticks = 300;
+        let back_ticks = 200;
         self.sweep(-way_m / (back_ticks as f64 / 1000.0), back_ticks, rate_hz);
-        self.wait(150);
+        self.wait(100);
         self.sweep(speed_m_s, 2000, rate_hz);
         if self.finished.is_none() {
             self.button(Button::Left, false);

@@ -2,7 +2,9 @@
 
 use super::desk::{Desk, RATES_HZ, free_play};
 use hapticbillard::events::{Command, FactKind};
-use hapticbillard::input::feel::{STROKE_ACCELERATION_MAX_M_S2, STROKE_SPEED_MAX_M_S};
+use hapticbillard::input::feel::{
+    STROKE_ACCELERATION_MAX_M_S2, STROKE_M_PER_HEIGHT, STROKE_SPEED_MAX_M_S,
+};
 use hapticbillard::input::{Button, HumanMode, Key, RawInput};
 use hapticbillard::table::Table;
 use hapticbillard::tick::Pace;
@@ -26,7 +28,6 @@ fn the_tip_strikes_with_the_speed_of_the_hand_whatever_the_mouse_reports() {
             desk.stroke(0.38, speed_m_s, rate_hz);
             assert_eq!(desk.tips(), 1, "{rate_hz} Hz, {speed_m_s} m/s");
             let struck = desk.view().strength_m_s;
-            println!("{rate_hz} Hz {speed_m_s}: {struck}");
             assert!((struck / speed_m_s - 1.0).abs() < 0.03, "{rate_hz} Hz: {struck}");
             // And that is what physics saw: a central hit meets the ball along its normal.
             let seen = desk.facts().into_iter().find_map(|fact| match fact.kind {
@@ -36,6 +37,34 @@ fn the_tip_strikes_with_the_speed_of_the_hand_whatever_the_mouse_reports() {
             assert!((seen.unwrap() - struck).abs() < 1e-9);
         }
     }
+}
+
+#[test]
+fn a_slow_mouse_in_a_slow_window_still_strikes_about_as_hard() {
+    // 125 reports a second, handed on 60 times a second: two in most pictures, three in some.
+    let mut worst = 0.0f64;
+    for start in 0..12u64 {
+        let mut desk = at_the_ball();
+        desk.button(Button::Left, true);
+        desk.sweep(-1.0, 350, 1000);
+        desk.wait(100);
+        let mut waiting = 0;
+        for tick in 1 + 37 * start..=500 + 37 * start {
+            waiting += tick * 125 / 1000 - (tick - 1) * 125 / 1000;
+            let mut reports = vec![];
+            if tick * 60 / 1000 > (tick - 1) * 60 / 1000 {
+                let report = RawInput::Moved { right: 0.0, up: 2.0 / 125.0 / STROKE_M_PER_HEIGHT };
+                reports = vec![report; std::mem::take(&mut waiting) as usize];
+            }
+            if desk.mode() == HumanMode::Stroking {
+                desk.tick(&reports);
+            }
+        }
+        assert_eq!(desk.tips(), 1);
+        worst = worst.max((desk.view().strength_m_s / 2.0 - 1.0).abs());
+    }
+    println!("worst {worst}");
+    assert!(worst < 0.15, "{worst}");
 }
 
 #[test]
@@ -106,7 +135,9 @@ fn the_interface_never_hits_twice() {
             },
             RawInput::Button { button: Button::Right, down: false },
         ]);
-        desk.hold(Key::PageUp, random.random_range(1..2500));
+        let control = |down| RawInput::Key { key: Key::Control, down };
+        let raise = RawInput::Wheel { notches: random.random_range(0.0..35.0) };
+        desk.tick(&[control(true), raise, control(false)]);
         let pull_m = random.random_range(0.05..0.4);
         let speed_m_s = random.random_range(0.2..9.0);
         let rate_hz = RATES_HZ[random.random_range(0..3)];
