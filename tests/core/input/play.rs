@@ -212,3 +212,17 @@ fn the_same_reports_give_the_same_frames_and_the_same_balls() {
     assert_eq!(first.0, second.0);
     assert_eq!(first.1, second.1);
 }
+
+#[test]
+fn a_person_is_asked_in_every_tick_whatever_the_pace() {
+    let scene = free_play(&[(0, -0.4, 0.0), (1, 0.4, 0.1)]);
+    let table = Arc::new(Table::preset("pool-9ft").unwrap());
+    let play = |pace| {
+        let mut desk = Desk::at(&scene, table.clone(), pace);
+        desk.wait(3);
+        desk.stroke(0.3, 2.0, 125);
+        desk.wait(500);
+        (desk.frames(), desk.cue_ball().position)
+    };
+    assert_eq!(play(Pace::EveryTick), play(Pace::Jump));
+}

@@ -63,7 +63,6 @@ fn a_slow_mouse_in_a_slow_window_still_strikes_about_as_hard() {
         assert_eq!(desk.tips(), 1);
         worst = worst.max((desk.view().strength_m_s / 2.0 - 1.0).abs());
     }
-    println!("worst {worst}");
     assert!(worst < 0.15, "{worst}");
 }
 
