@@ -11,6 +11,8 @@ mod event_driven;
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
+/// A person at mouse and keyboard, from raw reports to whole games.
+mod input;
 mod physics_explore;
 /// Scenes that several physics tests share.
 mod physics_scenes;
