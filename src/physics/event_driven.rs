@@ -184,12 +184,6 @@ impl EventDriven {
         self.done = self.done.max(at);
         let at = self.done;
         self.count(at)?;
-        if self.counted.0 > EVENTS_PER_SECOND_MAX * (1 + self.bodies.len() as u64 / 8) - 25 {
-            if let Next::Ball(i) = next {
-                let b = &self.bodies[i];
-                eprintln!("{at:.12} ball {i} {:?} own {:?} pair {:?} rep {:?} held {:?} x {:?} v {:?} a {:?}", b.segment.course, b.own, b.pair, b.report, b.held, b.segment.position_at(at), b.segment.velocity_at(at), b.segment.acceleration);
-            } else { eprintln!("{at:.12} {next:?}"); }
-        }
         match next {
             Next::Ball(index) => self.ball_event(at, index)?,
             Next::Tip => self.tip_event(at)?,

@@ -125,19 +125,19 @@ impl EventDriven {
             start.angular_velocity *= factor;
         }
         if body.held.is_empty() {
-            let next = motion::flying(&start, &body.ball, &self.parameters);
+            let next = motion::free(&start, &body.ball, &self.parameters);
             self.turn_into(index, next);
             return;
         }
         let Some((normal, law)) = self.support(index, at) else {
-            self.bodies[index].turn_into(Segment { course: Course::Lasting, ..start });
+            self.bodies[index].turn_into(Segment { course: Course::Lasting, swing: None, ..start });
             self.begin_lasting(at, index);
             return;
         };
         let lift = start.velocity.dot(normal);
         if lift > tolerance::HOP_M_S {
             self.bodies[index].held.clear();
-            let next = motion::flying(&start, &self.bodies[index].ball, &self.parameters);
+            let next = motion::free(&start, &self.bodies[index].ball, &self.parameters);
             self.turn_into(index, next);
             return;
         }
@@ -155,7 +155,7 @@ impl EventDriven {
                 self.turn_into(index, next);
             }
             None => {
-                self.bodies[index].turn_into(Segment { course: Course::Lasting, ..start.segment });
+                self.bodies[index].turn_into(Segment { course: Course::Lasting, swing: None, ..start.segment });
                 self.begin_lasting(at, index);
             }
         }
@@ -206,7 +206,7 @@ impl EventDriven {
                 self.turn_into(index, next);
             }
             None => {
-                self.bodies[index].turn_into(Segment { course: Course::Lasting, ..state });
+                self.bodies[index].turn_into(Segment { course: Course::Lasting, swing: None, ..state });
                 self.begin_lasting(at, index);
             }
         }

@@ -16,7 +16,7 @@ use super::terrain::Feature;
 use crate::physics::laws::Mover;
 use crate::physics::laws::cloth::{self, Carrying};
 use crate::physics::laws::cluster::{self, Touch};
-use crate::physics::{Contact as Law, PhysicsError, tolerance};
+use crate::physics::{Contact as Law, PhysicsError, spring, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -48,6 +48,7 @@ impl EventDriven {
             angular_velocity: mover.angular_velocity,
             orientation: from.orientation_at(at),
             course: Course::Lasting,
+            swing: None,
             ..from
         });
         self.begin_lasting(at, index);
@@ -119,7 +120,7 @@ impl EventDriven {
             self.watch_rails(*index, at);
             self.close_segment(at, *index);
             let state = self.state_at(at, *index);
-            self.bodies[*index].turn_into(Segment { course: Course::Lasting, ..state });
+            self.bodies[*index].turn_into(Segment { course: Course::Lasting, swing: None, ..state });
         }
         let step = tolerance::LASTING_STEP_S;
         let next = (libm::floor(at / step + 0.5) + 1.0) * step;
@@ -171,8 +172,25 @@ impl EventDriven {
             .collect();
         let mut movers = starts.clone();
         for (mover, index) in movers.iter_mut().zip(&stay) {
-            if self.bodies[*index].ball.flags.gravity && mover.inverse_mass > 0.0 {
+            let body = &self.bodies[*index];
+            if mover.inverse_mass == 0.0 {
+                continue;
+            }
+            if body.ball.flags.gravity {
                 mover.velocity += gravity * dt;
+            }
+            if let Some(own) = &body.ball.spring {
+                let s = &body.segment;
+                let (linear, angular) = spring::acceleration(
+                    &body.ball,
+                    own,
+                    s.position,
+                    s.velocity,
+                    s.orientation,
+                    s.angular_velocity,
+                );
+                mover.velocity += linear * dt;
+                mover.angular_velocity += angular * dt;
             }
         }
         let pushed = movers.clone();
@@ -202,7 +220,8 @@ impl EventDriven {
             let from = body.segment;
             let energy = start.kinetic_j()
                 + body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
-            body.target_j = energy - lost[place];
+            let pulled = body.ball.spring.is_some();
+            body.target_j = if pulled { f64::INFINITY } else { energy - lost[place] };
             body.held = kept[place].iter().map(|(feature, _, _)| *feature).collect();
             if moved > tolerance::REST_M_S {
                 body.quiet_since = at;
@@ -319,7 +338,7 @@ impl EventDriven {
         match contacts[..] {
             [] => {
                 self.bodies[index].held.clear();
-                let next = motion::flying(&segment, &self.bodies[index].ball, &self.parameters);
+                let next = motion::free(&segment, &self.bodies[index].ball, &self.parameters);
                 self.turn_into(index, next);
                 true
             }

@@ -26,6 +26,8 @@ pub enum Course {
     Sliding,
     /// Nothing carries it.
     Flying,
+    /// Swings on its spring.
+    Springing,
     /// A short piece of what has no closed form: pivoting on a rim, wedged, sliding down a slope.
     Lasting,
 }
@@ -55,6 +57,43 @@ pub struct Segment {
     pub orientation: DQuat,
     /// Its law.
     pub course: Course,
+    /// The spring that it swings on; then the path is the spring's, exactly, and the acceleration
+    /// is that of the parabola through both ends, for detection.
+    pub swing: Option<Swing>,
+}
+
+/// A ball on a spring and damper: harmonic motion about a point of rest.
+///
+/// The angular part is exact while the ball turns about one axis; else it holds for small angles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// Where the forces balance [m].
+    pub rest: DVec3,
+    /// √(k/m) [rad/s], and the damping ratio d/(2 √(k m)).
+    pub linear: (f64, f64),
+    /// The same of the angular spring; none if there is none.
+    pub angular: Option<(f64, f64)>,
+    /// The orientation that it pulls to.
+    pub anchor: DQuat,
+}
+
+impl Swing {
+    /// Offset and velocity after `t`, from those at its start.
+    fn linear_after(&self, offset: DVec3, velocity: DVec3, t: Seconds) -> (DVec3, DVec3) {
+        let m = spring::propagator(self.linear.0, self.linear.1, t);
+        (offset * m[0][0] + velocity * m[0][1], offset * m[1][0] + velocity * m[1][1])
+    }
+
+    fn angular_after(&self, orientation: DQuat, spin: DVec3, t: Seconds) -> (DVec3, DVec3) {
+        let angle = spring::rotation_vector(orientation * self.anchor.inverse());
+        match self.angular {
+            Some((omega, ratio)) => {
+                let m = spring::propagator(omega, ratio, t);
+                (angle * m[0][0] + spin * m[0][1], angle * m[1][0] + spin * m[1][1])
+            }
+            None => (angle + spin * t, spin),
+        }
+    }
 }
 
 impl Segment {
@@ -72,17 +111,26 @@ impl Segment {
             spin_deceleration: 0.0,
             orientation,
             course: Course::Rest,
+            swing: None,
         }
     }
 
     /// Centre at `at` [m].
     pub fn position_at(&self, at: Seconds) -> DVec3 {
         let t = at - self.start_s;
+        if let Some(swing) = &self.swing {
+            let offset = self.position - swing.rest;
+            return swing.rest + swing.linear_after(offset, self.velocity, t).0;
+        }
         self.position + (self.velocity + self.acceleration * (0.5 * t)) * t
     }
 
     /// Velocity at `at` [m/s].
     pub fn velocity_at(&self, at: Seconds) -> DVec3 {
+        if let Some(swing) = &self.swing {
+            let offset = self.position - swing.rest;
+            return swing.linear_after(offset, self.velocity, at - self.start_s).1;
+        }
         self.velocity + self.acceleration * (at - self.start_s)
     }
 
@@ -104,6 +152,9 @@ impl Segment {
     /// Angular velocity at `at` [rad/s].
     pub fn angular_velocity_at(&self, at: Seconds) -> DVec3 {
         let t = at - self.start_s;
+        if let Some(swing) = &self.swing {
+            return swing.angular_after(self.orientation, self.angular_velocity, t).1;
+        }
         let base = self.angular_velocity + self.angular_acceleration * t;
         if self.spin_deceleration == 0.0 {
             return base;
@@ -120,6 +171,10 @@ impl Segment {
         let t = at - self.start_s;
         if t <= 0.0 || self.course == Course::Rest {
             return self.orientation;
+        }
+        if let Some(swing) = &self.swing {
+            let angle = swing.angular_after(self.orientation, self.angular_velocity, t).0;
+            return spring::turned(swing.anchor, angle, 1.0);
         }
         let (alpha, omega) = (self.angular_acceleration, self.angular_velocity);
         let spin = omega.dot(self.normal);
@@ -150,7 +205,7 @@ impl Segment {
             Course::Spinning => Motion::Spinning,
             Course::Rolling => Motion::Rolling,
             Course::Sliding => Motion::Sliding,
-            Course::Flying | Course::Settling => Motion::Airborne,
+            Course::Flying | Course::Settling | Course::Springing => Motion::Airborne,
             Course::Lasting if self.velocity == DVec3::ZERO => Motion::Rest,
             Course::Lasting => Motion::Sliding,
         }

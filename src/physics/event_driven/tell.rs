@@ -256,10 +256,21 @@ impl EventDriven {
 
     /// Books what the segment of a ball did up to `at`.
     pub(super) fn close_segment(&mut self, at: Seconds, index: usize) {
+        let body = &self.bodies[index];
+        if body.segment.swing.is_some() {
+            let given = self.spring_j(body, at);
+            self.ledger.spring_j += given;
+        }
         let (loss_j, table, smooth) = self.account(&self.bodies[index], at);
         self.ledger.cloth_j += loss_j;
         self.ledger.momentum.table += table;
         self.ledger.momentum.smooth += smooth;
+    }
+
+    /// Energy that a spring with its damper has given in a segment [J]: what is not weight.
+    fn spring_j(&self, body: &Body, at: Seconds) -> f64 {
+        let start = body.segment.start_s;
+        self.energy_of(body, at) - self.energy_of(body, start)
     }
 
     /// Energy that a segment has lost to what carries the ball [J], impulse of the table and of
@@ -277,6 +288,10 @@ impl EventDriven {
         let weighs = body.ball.flags.gravity;
         let gravity = if weighs { DVec3::NEG_Z * self.parameters.gravity_m_s2 } else { DVec3::ZERO };
         let smooth = gravity * (mass * t);
+        if s.swing.is_some() {
+            let change = (s.velocity_at(at) - s.velocity) * mass;
+            return (0.0, DVec3::ZERO, change);
+        }
         let mut loss_j = 0.0;
         let table = s.acceleration * (mass * t) - smooth;
         match s.course {
@@ -301,7 +316,11 @@ impl EventDriven {
                 loss_j -= mass * (s.acceleration - gravity).dot(mean) * t
                     + inertia * s.angular_acceleration.dot(mean_spin) * t;
             }
-            Course::Flying | Course::Spinning | Course::Settling | Course::Rest => {}
+            Course::Flying
+            | Course::Springing
+            | Course::Spinning
+            | Course::Settling
+            | Course::Rest => {}
         }
         if s.spin_deceleration > 0.0 {
             let spin = s.angular_velocity.dot(s.normal);
@@ -317,6 +336,9 @@ impl EventDriven {
         let at = self.now.max(self.done);
         let (mut kinetic, mut weight) = (0.0, 0.0);
         for body in self.bodies.iter().filter(|body| body.in_play()) {
+            if body.segment.swing.is_some() {
+                ledger.spring_j += self.spring_j(body, at);
+            }
             let (loss_j, table, smooth) = self.account(body, at);
             ledger.cloth_j += loss_j;
             ledger.momentum.table += table;
