@@ -39,6 +39,7 @@ const ACTORS: [(&str, Option<&str>); 21] = [
     ("participant", Some("tick")),
     ("cli", None),
     ("cpu_time", None),
+    ("stopwatch", None),
     ("error", None),
     ("event_log", None),
     ("game", None),
