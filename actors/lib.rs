@@ -34,4 +34,6 @@ pub mod pacer;
 
 pub mod runtime;
 
+pub mod stopwatch;
+
 pub mod game;

@@ -50,3 +50,8 @@ pub mod cast;
 pub mod lockstep;
 
 pub mod replay;
+
+/// The examples of the README, compiled and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

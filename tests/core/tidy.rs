@@ -26,7 +26,7 @@ const LAYERS: [&[&str]; 13] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 21] = [
+const ACTORS: [(&str, Option<&str>); 22] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -39,6 +39,7 @@ const ACTORS: [(&str, Option<&str>); 21] = [
     ("participant", Some("tick")),
     ("cli", None),
     ("cpu_time", None),
+    ("stopwatch", None),
     ("error", None),
     ("event_log", None),
     ("game", None),

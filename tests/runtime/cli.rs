@@ -5,7 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-fn program(arguments: &[&str]) -> Output {
+/// Runs the program with nothing on its standard input.
+pub fn program(arguments: &[&str]) -> Output {
     with_stdin(arguments, "")
 }
 
@@ -27,7 +28,8 @@ fn lines(bytes: &[u8]) -> Vec<Value> {
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
-fn text(bytes: &[u8]) -> &str {
+/// What it printed.
+pub fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 

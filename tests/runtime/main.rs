@@ -9,6 +9,8 @@ mod cli;
 mod files;
 /// Who stands in for whom.
 mod mocks;
+/// What enters from outside: pauses, wrong files.
+mod outside;
 /// Threads and memory, counted from outside.
 mod resources;
 /// Actors against lockstep, replays, a mock hand.
