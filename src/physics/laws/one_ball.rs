@@ -1,0 +1,216 @@
+//! One ball at two or three surfaces at once, solved directly: cushion and bed, a corner, a corner
+//! and the bed.
+//!
+//! The conditions are those of [`super::cluster`]: for each contact, with u the velocity of the
+//! ball's skin after the impulses,
+//! ```text
+//! 0 ≤ Jn  ⊥  u·n − target ≥ 0          Jt in the disc |Jt| ≤ μ Jn, u_t = 0 inside, against u_t on it
+//! ```
+//! Newton's method on the projections (Alart and Curnier 1991) meets them in a handful of linear
+//! solves of 6 or 9 unknowns, whatever sticks and whatever slips; Gauss-Seidel needs 15 to 40
+//! sweeps for the same digits. Limits: Newton's method may circle; then there is no answer and the
+//! caller sweeps.
+
+use super::Mover;
+use glam::DVec3;
+use smallvec::SmallVec;
+
+/// Most surfaces at once.
+pub const SURFACES_MAX: usize = 3;
+const UNKNOWNS: usize = 3 * SURFACES_MAX;
+/// Iterations before giving up.
+const ITERATIONS: usize = 12;
+/// Relative change of impulses that ends the iteration.
+const RELATIVE: f64 = 1e-13;
+
+/// A fixed surface that the ball touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surface {
+    /// Unit vector from the surface to the centre.
+    pub normal: DVec3,
+    /// Normal velocity that the contact must leave at least [m/s].
+    pub target_m_s: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+}
+
+/// The impulses of the surfaces on the ball [N s], in their order; none if there are more than
+/// [`SURFACES_MAX`] or the iteration does not settle.
+pub fn solve(ball: &Mover, surfaces: &[Surface]) -> Option<SmallVec<[DVec3; SURFACES_MAX]>> {
+    let count = surfaces.len();
+    if count == 0 || count > SURFACES_MAX || ball.inverse_mass == 0.0 {
+        return None;
+    }
+    let size = 3 * count;
+    let frames: SmallVec<[[DVec3; 3]; SURFACES_MAX]> = surfaces
+        .iter()
+        .map(|surface| {
+            let (t, b) = surface.normal.any_orthonormal_pair();
+            [surface.normal, t, b]
+        })
+        .collect();
+
+    // u = start + W J in the frames of the contacts.
+    let mut yields = [[0.0; UNKNOWNS]; UNKNOWNS];
+    let mut start = [0.0; UNKNOWNS];
+    for (i, frame) in frames.iter().enumerate() {
+        let skin = ball.surface_velocity(frame[0]);
+        for (p, axis) in frame.iter().enumerate() {
+            start[3 * i + p] = skin.dot(*axis);
+        }
+        for (j, other) in frames.iter().enumerate() {
+            for (q, push) in other.iter().enumerate() {
+                let mut pushed =
+                    Mover { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*ball };
+                pushed.push(other[0], *push);
+                let skin = pushed.surface_velocity(frame[0]);
+                for (p, axis) in frame.iter().enumerate() {
+                    yields[3 * i + p][3 * j + q] = skin.dot(*axis);
+                }
+            }
+        }
+    }
+
+    let mut impulses = first_guess(&start, &yields, surfaces);
+    for _ in 0..ITERATIONS {
+        let mut velocity = start;
+        for (u, row) in velocity.iter_mut().zip(&yields).take(size) {
+            *u += row.iter().zip(&impulses).take(size).map(|(w, j)| w * j).sum::<f64>();
+        }
+        let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+        let mut right = [0.0; UNKNOWNS];
+        for (i, surface) in surfaces.iter().enumerate() {
+            rows(i, surface, &velocity, &yields, &impulses, &mut matrix, &mut right, size);
+        }
+        let change = eliminate(&mut matrix, &mut right, size)?;
+        let mut largest: f64 = 0.0;
+        let mut moved: f64 = 0.0;
+        for (impulse, change) in impulses.iter_mut().zip(&change).take(size) {
+            *impulse += change;
+            largest = largest.max(impulse.abs());
+            moved = moved.max(change.abs());
+        }
+        if !moved.is_finite() {
+            return None;
+        }
+        if moved <= RELATIVE * largest {
+            let vector = |i: usize| {
+                frames[i].iter().zip(&impulses[3 * i..]).map(|(axis, j)| *axis * *j).sum()
+            };
+            return Some((0..count).map(vector).collect());
+        }
+    }
+    None
+}
+
+/// One sweep of projected Gauss-Seidel: which contacts act, and against which slip.
+fn first_guess(
+    start: &[f64; UNKNOWNS],
+    yields: &[[f64; UNKNOWNS]; UNKNOWNS],
+    surfaces: &[Surface],
+) -> [f64; UNKNOWNS] {
+    let mut impulses = [0.0; UNKNOWNS];
+    let size = 3 * surfaces.len();
+    let velocity = |impulses: &[f64; UNKNOWNS], k: usize| {
+        start[k] + yields[k].iter().zip(impulses).take(size).map(|(w, j)| w * j).sum::<f64>()
+    };
+    for (i, surface) in surfaces.iter().enumerate() {
+        let k = 3 * i;
+        let lacks = surface.target_m_s - velocity(&impulses, k);
+        impulses[k] = (lacks / yields[k][k]).max(0.0);
+        let [a, b] = [k + 1, k + 2].map(|k| -velocity(&impulses, k) / yields[k][k]);
+        let (size, limit) = (libm::hypot(a, b), surface.friction * impulses[k]);
+        let scale = if size > limit { limit / size } else { 1.0 };
+        (impulses[k + 1], impulses[k + 2]) = (a * scale, b * scale);
+    }
+    impulses
+}
+
+/// The three linear equations of a contact for the change of the impulses.
+#[allow(clippy::too_many_arguments)]
+fn rows(
+    index: usize,
+    surface: &Surface,
+    velocity: &[f64; UNKNOWNS],
+    yields: &[[f64; UNKNOWNS]; UNKNOWNS],
+    impulses: &[f64; UNKNOWNS],
+    matrix: &mut [[f64; UNKNOWNS]; UNKNOWNS],
+    right: &mut [f64; UNKNOWNS],
+    size: usize,
+) {
+    let (n, t, b) = (3 * index, 3 * index + 1, 3 * index + 2);
+    // Open: no impulse at all.
+    if impulses[n] - (velocity[n] - surface.target_m_s) / yields[n][n] <= 0.0 {
+        for k in [n, t, b] {
+            matrix[k][k] = 1.0;
+            right[k] = -impulses[k];
+        }
+        return;
+    }
+    matrix[n] = yields[n];
+    right[n] = surface.target_m_s - velocity[n];
+
+    let stiff = 1.0 / yields[t][t];
+    let trial = [impulses[t] - velocity[t] * stiff, impulses[b] - velocity[b] * stiff];
+    let length = libm::hypot(trial[0], trial[1]);
+    let limit = surface.friction * impulses[n].max(0.0);
+    // Sticks: no slip.
+    if length <= limit {
+        for k in [t, b] {
+            matrix[k] = yields[k];
+            right[k] = -velocity[k];
+        }
+        return;
+    }
+    // Slips: Jt = μ Jn â, â along the trial, and how that changes with the impulses.
+    let along = [trial[0] / length, trial[1] / length];
+    let turn = limit / length;
+    for (own, k) in [(0, t), (1, b)] {
+        right[k] = limit * along[own] - impulses[k];
+        for column in 0..size {
+            let change = [t, b].map(|k| {
+                let unit = if k == column { 1.0 } else { 0.0 };
+                unit - yields[k][column] * stiff
+            });
+            let radial = along[0] * change[0] + along[1] * change[1];
+            let unit = if k == column { 1.0 } else { 0.0 };
+            matrix[k][column] = unit - turn * (change[own] - along[own] * radial);
+        }
+        matrix[k][n] -= surface.friction * along[own];
+    }
+}
+
+/// Gauss's elimination with the largest pivot of each column; none if the matrix is singular.
+fn eliminate(
+    matrix: &mut [[f64; UNKNOWNS]; UNKNOWNS],
+    right: &mut [f64; UNKNOWNS],
+    size: usize,
+) -> Option<[f64; UNKNOWNS]> {
+    for column in 0..size {
+        let pivot = (column..size)
+            .max_by(|a, b| matrix[*a][column].abs().total_cmp(&matrix[*b][column].abs()))?;
+        if matrix[pivot][column].abs() < 1e-12 {
+            return None;
+        }
+        matrix.swap(column, pivot);
+        right.swap(column, pivot);
+        let (head, tail) = matrix.split_at_mut(column + 1);
+        let leading = &head[column];
+        let inverse = 1.0 / leading[column];
+        for (offset, row) in tail.iter_mut().enumerate().take(size - column - 1) {
+            let factor = row[column] * inverse;
+            if factor != 0.0 {
+                for (entry, lead) in row.iter_mut().zip(leading).take(size).skip(column) {
+                    *entry -= factor * lead;
+                }
+                right[column + 1 + offset] -= factor * right[column];
+            }
+        }
+    }
+    let mut solution = [0.0; UNKNOWNS];
+    for row in (0..size).rev() {
+        let known: f64 = (row + 1..size).map(|k| matrix[row][k] * solution[k]).sum();
+        solution[row] = (right[row] - known) / matrix[row][row];
+    }
+    Some(solution)
+}
