@@ -35,6 +35,8 @@ pub mod tick;
 
 pub mod physics;
 
+pub mod validation;
+
 pub mod rules;
 
 pub mod ai;

@@ -6,10 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
-const LAYERS: [&[&str]; 13] = [
+const LAYERS: [&[&str]; 14] = [
     &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped"],
     &["table", "rack"],
     &["physics"],
+    // Cases with known answers, run on the physics.
+    &["validation"],
     // A scene holds the settings of the physics that it asks for.
     &["scene"],
     // The order of a tick: what is delivered when, and how it is written down.
