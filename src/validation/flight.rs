@@ -6,7 +6,7 @@ use super::probe::{LONGEST_S, Probe};
 use super::setup::Setup;
 use super::world::World;
 use crate::ball::{BallState, Motion};
-use crate::physics::SolverKind;
+use crate::physics::{PhysicsSettings, SolverKind};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -14,6 +14,8 @@ use glam::DVec3;
 const IMPACTS_MAX: usize = 10_000;
 /// A ball whose velocity is off that of free fall by more than this has met something [m/s].
 const MET_M_S: f64 = 1e-9;
+/// The same for a stepper, whose velocity stands still within a step: in what gravity gives in one.
+const MET_STEPS: f64 = 1.5;
 
 /// A landing.
 struct Impact {
@@ -47,7 +49,12 @@ pub(super) fn observe(
             seen.set("first_apex_z_m", top.position.z);
         }
     }
-    let impacts = land(&mut probe, gravity, radius, entry.velocity_m_s)?;
+    let slack = match solver {
+        SolverKind::FixedStep => MET_STEPS * gravity * PhysicsSettings::default().step_ms / 1000.0,
+        #[allow(unreachable_patterns)]
+        _ => MET_M_S,
+    };
+    let impacts = land(&mut probe, gravity, radius, entry.velocity_m_s, slack)?;
     seen.set("impact_time_s", impacts.iter().map(|i| i.time).collect::<Vec<_>>());
     let ways: Vec<DVec3> = impacts.iter().map(|i| i.after.position - start).collect();
     seen.set("impact_displacement_m", ways);
@@ -115,6 +122,7 @@ fn land(
     gravity: f64,
     radius: f64,
     velocity: DVec3,
+    slack: f64,
 ) -> Result<Vec<Impact>, Trouble> {
     let mut impacts = Vec::new();
     // A ball that lies and moves into the table meets it at once.
@@ -140,7 +148,7 @@ fn land(
             last.apex_m = Some(top.position.z - radius).filter(|height| *height > 0.0);
         }
         let fall = |time: Seconds| from.velocity.z - gravity * (time - at);
-        let hit = |time: Seconds, state: &BallState| state.velocity.z > fall(time) + MET_M_S;
+        let hit = |time: Seconds, state: &BallState| state.velocity.z > fall(time) + slack;
         let Some((time, after)) = probe.until(LONGEST_S, hit)? else { break };
         let before = from.velocity.with_z(fall(time));
         impacts.push(Impact { time, before, after, apex_m: None });

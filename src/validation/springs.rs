@@ -172,7 +172,10 @@ pub(super) fn frequency_response(setup: &Setup<'_>) -> Result<Observations, Trou
             }
         }
     }
-    let scale = 2.0 / f64::from(SAMPLES) / amplitude;
+    // Straight pieces between the samples of a sine have its frequency with this much of it.
+    let half_sample = core::f64::consts::PI / f64::from(SAMPLES);
+    let kept = (libm::sin(half_sample) / half_sample).powi(2);
+    let scale = 2.0 / f64::from(SAMPLES) / (amplitude * kept);
     let (real, imaginary) = (sine * scale, cosine * scale);
     let mut seen = Observations::default();
     seen.set("amplitude_ratio", libm::hypot(real, imaginary));

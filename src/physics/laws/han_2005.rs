@@ -3,8 +3,8 @@
 /// e(v) = 0.39 + 0.257 v − 0.044 v², v the speed into the cushion [m/s].
 ///
 /// Han, Dynamics in carom and three cushion billiards, J. Mech. Sci. Technol. 19 (2005) 976,
-/// eq. 26 (second-hand transcription). Limits: a fit to carom cushions up to about 3 m/s; it has its
-/// maximum at 2.92 m/s and would turn negative above 7 m/s, so from the maximum on it is held
+/// eq. 26 (second-hand transcription). Limits: a fit to carom cushions up to about 3 m/s; it has
+/// its maximum at 2.92 m/s and would turn negative above 7 m/s, so from the maximum on it is held
 /// there. The impact itself is Coulomb's, at cushion and bed ([`super::cushion`]); Han's own planar
 /// equations leave the bed out.
 pub fn restitution(speed_into_m_s: f64) -> f64 {

@@ -27,7 +27,8 @@ const LONGEST_S: Seconds = 5e-3;
 ///
 /// Each contact follows Hertz with the damping of Kuwabara and Kono 1987,
 /// ```text
-/// F = k δ^(3/2) + γ δ^(1/2) δ′ ≥ 0      k = 4/3 E* √R*,  1/E* = 2 (1 − ν²)/E,  1/R* = 1/R_a + 1/R_b
+/// F = k δ^(3/2) + γ δ^(1/2) δ′ ≥ 0
+/// k = 4/3 E* √R*     1/E* = 2 (1 − ν²)/E     1/R* = 1/R_a + 1/R_b
 /// ```
 /// γ such that a pair keeps the restitution of its touch at [`REFERENCE_M_S`]. Velocity Verlet at
 /// [`STEP_S`]. Surfaces that carry a ball do not yield: they only keep it from being pressed in.

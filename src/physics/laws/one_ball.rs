@@ -4,7 +4,8 @@
 //! The conditions are those of [`super::cluster`]: for each contact, with u the velocity of the
 //! ball's skin after the impulses,
 //! ```text
-//! 0 ≤ Jn  ⊥  u·n − target ≥ 0          Jt in the disc |Jt| ≤ μ Jn, u_t = 0 inside, against u_t on it
+//! 0 ≤ Jn  ⊥  u·n − target ≥ 0
+//! |Jt| ≤ μ Jn: u_t = 0 inside of that disc, Jt against u_t on its edge
 //! ```
 //! Newton's method on the projections (Alart and Curnier 1991) meets them in a handful of linear
 //! solves of 6 or 9 unknowns, whatever sticks and whatever slips; Gauss-Seidel needs 15 to 40
