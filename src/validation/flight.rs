@@ -43,11 +43,12 @@ pub(super) fn observe(
     let mut seen = Observations::default();
 
     let mut probe = Probe::new(world.simulation()?);
-    if entry.velocity_m_s.z > 0.0 || entry.position_m.z > radius {
-        if let Some((time, top)) = probe.clone().until(LONGEST_S, |_, s| s.velocity.z <= 0.0)? {
-            seen.set("t_first_apex_s", time);
-            seen.set("first_apex_z_m", top.position.z);
-        }
+    let flies = entry.velocity_m_s.z > 0.0 || entry.position_m.z > radius;
+    if flies
+        && let Some((time, top)) = probe.clone().until(LONGEST_S, |_, s| s.velocity.z <= 0.0)?
+    {
+        seen.set("t_first_apex_s", time);
+        seen.set("first_apex_z_m", top.position.z);
     }
     let slack = match solver {
         SolverKind::FixedStep => MET_STEPS * gravity * PhysicsSettings::default().step_ms / 1000.0,

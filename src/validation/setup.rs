@@ -220,7 +220,8 @@ impl Setup<'_> {
         let grid: Option<Grid> = self.get("balls_grid")?;
         let Some(grid) = grid else { return Ok(None) };
         let count = grid.count.iter().map(|n| u64::from(*n)).product::<u64>();
-        if !(1..=BALLS_MAX as u64).contains(&count) || !(grid.m > 0.0 && grid.radius_m > 0.0) {
+        let real = grid.m > 0.0 && grid.radius_m > 0.0;
+        if !real || !(1..=BALLS_MAX as u64).contains(&count) {
             let problem = format!("{count} balls of {} kg and {} m", grid.m, grid.radius_m);
             return Err(self.error("balls_grid", problem, "write 1 to 20000 real balls"));
         }

@@ -147,7 +147,7 @@ pub(super) fn frequency_response(setup: &Setup<'_>) -> Result<Observations, Trou
         sigma
     };
     let periods = (-libm::log(DIED) / (slow * period)).ceil();
-    if !(periods <= PERIODS_MAX) {
+    if periods.is_nan() || periods > PERIODS_MAX {
         return unsupported("a start that does not die away has no steady state");
     }
 

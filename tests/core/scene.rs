@@ -178,7 +178,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "ball_law = \"mathavan\"\n",
         "4: physics.ball_law = \"mathavan\": this build knows \"coulomb\", \"speed-dependent\", \
-         \"mathavan-2014\"; did you mean \"mathavan-2014\"?",
+         \"mathavan-2014\"; write for example ball_law = \"coulomb\"",
     );
     after_head(
         "cushion_law = \"stronge\"\n",
