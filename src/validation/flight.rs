@@ -2,7 +2,7 @@
 
 use super::error::{Trouble, unsupported};
 use super::observed::Observations;
-use super::probe::{LONGEST_S, Probe};
+use super::probe::{LONGEST_S, LOOK_S, Probe};
 use super::setup::Setup;
 use super::world::World;
 use crate::ball::{BallState, Motion};
@@ -12,6 +12,8 @@ use glam::DVec3;
 
 /// Impacts that are followed one by one at most.
 const IMPACTS_MAX: usize = 10_000;
+/// Times between two looks [s].
+const SHORTEST_S: Seconds = 1e-6;
 /// A ball whose velocity is off that of free fall by more than this has met something [m/s].
 const MET_M_S: f64 = 1e-9;
 /// The same for a stepper, whose velocity stands still within a step: in what gravity gives in one.
@@ -140,8 +142,14 @@ fn land(
     }
     while impacts.len() < IMPACTS_MAX {
         let (from, at) = (probe.state()?, probe.simulation.now_s());
-        if from.motion != Motion::Airborne && from.velocity.z <= 0.0 {
+        // What has landed and does not rise is down, whatever its motion is called.
+        let down = from.motion != Motion::Airborne || !impacts.is_empty();
+        if down && from.velocity.z <= 0.0 {
             break;
+        }
+        // Looked at often enough that a hop is not jumped over.
+        if let Some(last) = impacts.last() {
+            probe.look_s = (0.25 * last.after.velocity.z / gravity).clamp(SHORTEST_S, LOOK_S);
         }
         if let Some(last) = impacts.last_mut()
             && let Some((_, top)) = probe.until(LONGEST_S, |_, s| s.velocity.z <= 0.0)?
@@ -154,5 +162,6 @@ fn land(
         let before = from.velocity.with_z(fall(time));
         impacts.push(Impact { time, before, after, apex_m: None });
     }
+    probe.look_s = LOOK_S;
     Ok(impacts)
 }

@@ -40,6 +40,7 @@ pub(super) fn observe(
 
     let asks = |part: &str| keys.iter().any(|key| key.contains(part));
     let start_j = world.energy_j(&run.start);
+    let kinetic_j = run.start.ledger().kinetic_j;
     let rolling = if asks("roll") || asks("energy") || asks("turn") || asks("straight") {
         run.first(|_, state| !matches!(state.motion, Motion::Sliding | Motion::Airborne))?
     } else {
@@ -49,7 +50,7 @@ pub(super) fn observe(
         run.rolling(*time, state, &mut seen)?;
         let lost = start_j - world.energy_j(simulation);
         seen.set("energy_lost_J", lost);
-        seen.maybe("energy_lost_fraction", (start_j > 0.0).then(|| lost / start_j));
+        seen.maybe("energy_lost_fraction", (kinetic_j > 0.0).then(|| lost / kinetic_j));
     }
     if asks("straight") {
         let until = rolling.as_ref().map_or(1.0, |(time, ..)| *time);

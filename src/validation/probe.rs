@@ -8,7 +8,7 @@ use crate::physics::Simulation;
 use crate::units::Seconds;
 
 /// Between these times it is asked whether something holds [s]; then halved to the last digit.
-const LOOK_S: Seconds = 0.01;
+pub(super) const LOOK_S: Seconds = 0.01;
 /// Nobody waits longer for something to happen [s].
 pub(super) const LONGEST_S: Seconds = 1000.0;
 
@@ -17,11 +17,13 @@ pub(super) const LONGEST_S: Seconds = 1000.0;
 pub(super) struct Probe {
     pub simulation: Simulation,
     pub ball: BallId,
+    /// How often it is asked whether something holds [s].
+    pub look_s: Seconds,
 }
 
 impl Probe {
     pub fn new(simulation: Simulation) -> Self {
-        Probe { simulation, ball: BallId(0) }
+        Probe { simulation, ball: BallId(0), look_s: LOOK_S }
     }
 
     /// Goes on to a time.
@@ -69,7 +71,7 @@ impl Probe {
         }
         let mut at = now;
         while at < limit {
-            let next = (at + LOOK_S).min(limit);
+            let next = (at + self.look_s).min(limit);
             let mut ahead = self.clone();
             ahead.advance(next)?;
             if holds(next, &ahead.state_at(next)?) {
