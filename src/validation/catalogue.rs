@@ -140,7 +140,7 @@ fn read_case(number: usize, value: &Value) -> Result<Case, CatalogueError> {
             _ if many => {
                 let fix =
                     format!("write a list of {} values, null where nothing is stated", runs.len());
-                return Err(wrong(&key, "has not one value a run", &fix));
+                return Err(wrong(&key, "has not the shape of one value a run", &fix));
             }
             value => vec![value],
         };

@@ -238,19 +238,29 @@ impl Setup<'_> {
         self.get("mu_curve")
     }
 
-    pub fn random_frames(&self) -> Result<Option<RandomFrames>, CatalogueError> {
+    pub fn random_frames(&self, end_s: f64) -> Result<Option<RandomFrames>, CatalogueError> {
         let frames: Option<RandomFrames> = self.get("random_frames")?;
         match frames {
-            Some(frames) if !(1e-5 <= frames.min_s && frames.min_s < frames.max_s) => {
+            Some(frames)
+                if !(0.0 < frames.min_s && frames.min_s < frames.max_s)
+                    || end_s / frames.min_s > FRAMES_MAX =>
+            {
                 let problem = format!("from {} to {} s", frames.min_s, frames.max_s);
-                Err(self.error("random_frames", problem, "write 1e-5 <= min_s < max_s"))
+                Err(self.error("random_frames", problem, "write 0 < min_s < max_s, not too short"))
             }
             frames => Ok(frames),
         }
     }
 
     pub fn pause(&self) -> Result<Option<Pause>, CatalogueError> {
-        self.get("pause")
+        let pause: Option<Pause> = self.get("pause")?;
+        match pause {
+            Some(pause) if pause.steps > 100_000 => {
+                let problem = format!("{} frames without time", pause.steps);
+                Err(self.error("pause", problem, "write at most 100000 steps"))
+            }
+            pause => Ok(pause),
+        }
     }
 
     pub fn contacts(&self) -> Result<Vec<[i64; 2]>, CatalogueError> {
@@ -285,7 +295,7 @@ impl Setup<'_> {
                 "balls_grid" => drop(self.grid()?),
                 "cue" => drop(self.cue()?),
                 "mu_curve" => drop(self.curve()?),
-                "random_frames" => drop(self.random_frames()?),
+                "random_frames" => drop(self.random_frames(0.0)?),
                 "pause" => drop(self.pause()?),
                 "contacts" => drop(self.contacts()?),
                 "break_scene" => drop(self.break_scene()?),

@@ -110,7 +110,7 @@ impl Shot {
         for length in &lengths {
             films.push(self.film(self.stops(|_| *length))?);
         }
-        if let Some(random) = setup.random_frames()? {
+        if let Some(random) = setup.random_frames(self.end)? {
             let mut generator = Pcg64Mcg::seed_from_u64(random.seed);
             let draw = move |_| generator.random_range(random.min_s..random.max_s);
             films.push(self.film(self.stops(draw))?);

@@ -24,3 +24,5 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// Cases with known answers, and catalogues of others.
+mod validation;
