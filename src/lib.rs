@@ -35,11 +35,11 @@ pub mod tick;
 
 pub mod physics;
 
-pub mod validation;
-
 pub mod rules;
 
 pub mod ai;
+
+pub mod validation;
 
 pub mod input;
 

@@ -20,6 +20,7 @@ mod cue_strike;
 mod flight;
 mod free;
 mod impacts;
+mod learner;
 mod on_mesh;
 mod on_plane;
 mod springs;
@@ -70,6 +71,7 @@ fn observe(
         "count" => claims::count(setup, keys),
         "fixed_step_figures" => step_2009::figures(setup),
         "push_out" => step_2009::push_out(setup),
+        "learner" => learner::observe(setup),
         "late_detection" => step_2009::late_detection(setup),
         other => Err(Trouble::Unsupported(format!("this build has no runner for {other}"))),
     }

@@ -55,7 +55,7 @@ fn collide(setup: &Setup<'_>) -> Result<Collision, Trouble> {
 }
 
 /// The paper's reflection and friction: each ball against the other as if that were fixed.
-fn clamp(a: &mut Mover, b: &mut Mover, normal: DVec3, law: Contact) -> Impact {
+pub(super) fn clamp(a: &mut Mover, b: &mut Mover, normal: DVec3, law: Contact) -> Impact {
     let slip = a.surface_velocity(normal) - b.surface_velocity(-normal);
     let across = slip - normal * slip.dot(normal);
     let before = a.kinetic_j() + b.kinetic_j();

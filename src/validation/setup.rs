@@ -3,7 +3,7 @@
 use super::error::{CatalogueError, Trouble, unsupported};
 use super::shapes::{
     BallEntry, BreakScene, CueEntry, Curve, Cylinder, Grid, MeshEntry, Numbers, Pause,
-    RandomFrames, Repeat, Wall,
+    RandomFrames, Repeat, Topspin, Wall,
 };
 use glam::DVec3;
 use serde::de::DeserializeOwned;
@@ -271,6 +271,19 @@ impl Setup<'_> {
         self.get("break_scene")
     }
 
+    pub fn topspin(&self) -> Result<Topspin, CatalogueError> {
+        self.need("topspin_over_rolling", self.get("topspin_over_rolling")?)
+    }
+
+    /// The two ends of a range, the lower first.
+    pub fn range(&self, key: &str) -> Result<std::ops::Range<f64>, CatalogueError> {
+        let [low, high] = self.two(key)?;
+        if low < high && high.is_finite() {
+            return Ok(low..high);
+        }
+        Err(self.error(key, format!("from {low} to {high} is no range"), "write [low, high]"))
+    }
+
     /// Gravity along −z [m/s²].
     pub fn gravity(&self) -> Result<f64, Trouble> {
         let gravity = self.maybe_vector("gravity_m_s2")?.unwrap_or_default();
@@ -300,6 +313,10 @@ impl Setup<'_> {
                 "contacts" => drop(self.contacts()?),
                 "break_scene" => drop(self.break_scene()?),
                 "subdivisions" => drop(self.counts(key)?),
+                "seeds" | "shots" => drop(self.count(key)?),
+                "topspin_over_rolling" => drop(self.topspin()?),
+                key if key.contains("_range_") || key == "f_band" => drop(self.range(key)?),
+                "hit_counts_outliers" => drop(self.switch(key)?),
                 "two_sided" => drop(self.switch(key)?),
                 "profile" | "law" => drop(self.word(key)?),
                 "gravity_m_s2" | "mirror_normal" | "axis" => drop(self.vector(key)?),

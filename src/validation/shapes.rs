@@ -140,3 +140,12 @@ impl Numbers {
         }
     }
 }
+
+/// Topspin at contact over that of rolling, falling with the speed.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Topspin {
+    pub at_rest: f64,
+    pub per_m_s: f64,
+    pub lowest: f64,
+}

@@ -10,14 +10,14 @@ const LAYERS: [&[&str]; 14] = [
     &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped"],
     &["table", "rack"],
     &["physics"],
-    // Cases with known answers, run on the physics.
-    &["validation"],
     // A scene holds the settings of the physics that it asks for.
     &["scene"],
     // The order of a tick: what is delivered when, and how it is written down.
     &["event_manager", "tick", "replay"],
     &["rules"],
     &["ai"],
+    // Cases with known answers, run on the physics and the learner.
+    &["validation"],
     &["input"],
     &["renderer"],
     &["tally"],

@@ -180,12 +180,12 @@ fn without_features_no_graphics_library_is_built() {
 
 #[test]
 fn validate_prints_a_line_a_case_and_exits_with_1_if_one_fails() {
-    let output = program(&["validate", "--only", "B05", "D04", "P06", "--json"]);
+    let output = program(&["validate", "--only", "B05", "D04", "P07", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let printed = lines(&output.stdout);
     assert_eq!(printed.len(), 4);
     let ids: Vec<&str> = printed[..3].iter().map(|line| line["id"].as_str().unwrap()).collect();
-    assert_eq!(ids, ["B05", "D04", "P06"]);
+    assert_eq!(ids, ["B05", "D04", "P07"]);
     assert_eq!(printed[0]["status"], "pass");
     assert_eq!(printed[0]["key"], "throw_deg");
     assert!(printed[0]["error"].as_f64().unwrap() <= printed[0]["limit"].as_f64().unwrap());
