@@ -36,11 +36,12 @@ const LONGEST_S: Seconds = 5e-3;
 /// millimetres meanwhile); the balls themselves stay where they are, as in every impulse law.
 pub fn resolve(movers: &mut [Mover], touches: &mut [Touch], gaps_m: &[f64]) -> bool {
     let before: Vec<Mover> = movers.to_vec();
-    let mut contacts: Vec<Contact> = Vec::with_capacity(touches.len());
-    for (touch, gap_m) in touches.iter().zip(gaps_m) {
-        let contact = Contact::new(touch, movers, *gap_m);
-        contacts.push(contact);
-    }
+    let mut viscous = Viscosities::default();
+    let contacts: Vec<Contact> = touches
+        .iter()
+        .zip(gaps_m)
+        .map(|(touch, gap_m)| Contact::new(touch, movers, *gap_m, &mut viscous))
+        .collect();
     let mut way = vec![DVec3::ZERO; movers.len()];
     let mut push = vec![DVec3::ZERO; movers.len()];
     let (h, half) = (STEP_S, 0.5 * STEP_S);
@@ -56,7 +57,7 @@ pub fn resolve(movers: &mut [Mover], touches: &mut [Touch], gaps_m: &[f64]) -> b
         }
         push.fill(DVec3::ZERO);
         let mut acts = false;
-        for (contact, touch) in contacts.iter_mut().zip(touches.iter_mut()) {
+        for (contact, touch) in contacts.iter().zip(touches.iter_mut()) {
             let at = |list: &[DVec3]| list[touch.a] - touch.b.map_or(DVec3::ZERO, |b| list[b]);
             let depth = -contact.gap_m - at(&way).dot(touch.normal);
             let closing = -touch.parting_m_s(movers);
@@ -102,7 +103,7 @@ struct Contact {
 }
 
 impl Contact {
-    fn new(touch: &Touch, movers: &[Mover], gap_m: f64) -> Self {
+    fn new(touch: &Touch, movers: &[Mover], gap_m: f64, viscous: &mut Viscosities) -> Self {
         let one = &movers[touch.a];
         let other = touch.b.map(|b| &movers[b]);
         let curvature = 1.0 / one.radius_m + other.map_or(0.0, |ball| 1.0 / ball.radius_m);
@@ -113,9 +114,24 @@ impl Contact {
         if inverse > 0.0 {
             // Lengths in (m v²/k)^(2/5), times in that over v: one number says how viscous it is.
             let length = libm::pow(REFERENCE_M_S * REFERENCE_M_S / (inverse * stiffness), 0.4);
-            contact.damping = viscosity(touch.restitution) * stiffness * length / REFERENCE_M_S;
+            contact.damping = viscous.of(touch.restitution) * stiffness * length / REFERENCE_M_S;
         }
         contact
+    }
+}
+
+/// β of each restitution that was asked for: most contacts of a cluster have the same.
+#[derive(Default)]
+struct Viscosities(Vec<(f64, f64)>);
+
+impl Viscosities {
+    fn of(&mut self, restitution: f64) -> f64 {
+        if let Some((_, beta)) = self.0.iter().find(|(known, _)| *known == restitution) {
+            return *beta;
+        }
+        let beta = viscosity(restitution);
+        self.0.push((restitution, beta));
+        beta
     }
 }
 

@@ -18,11 +18,11 @@ use smallvec::SmallVec;
 
 /// Most surfaces at once.
 pub const SURFACES_MAX: usize = 3;
-const UNKNOWNS: usize = 3 * SURFACES_MAX;
 /// Iterations before giving up.
 const ITERATIONS: usize = 12;
-/// Relative change of impulses that ends the iteration.
-const RELATIVE: f64 = 1e-13;
+/// Relative change of impulses that ends the iteration. It converges quadratically, so what is left
+/// then is the square of this.
+const RELATIVE: f64 = 1e-8;
 
 /// A fixed surface that the ball touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,11 +38,22 @@ pub struct Surface {
 /// The impulses of the surfaces on the ball [N s], in their order; none if there are more than
 /// [`SURFACES_MAX`] or the iteration does not settle.
 pub fn solve(ball: &Mover, surfaces: &[Surface]) -> Option<SmallVec<[DVec3; SURFACES_MAX]>> {
-    let count = surfaces.len();
-    if count == 0 || count > SURFACES_MAX || ball.inverse_mass == 0.0 {
+    if ball.inverse_mass == 0.0 {
         return None;
     }
-    let size = 3 * count;
+    match surfaces.len() {
+        1 => settle::<3>(ball, surfaces),
+        2 => settle::<6>(ball, surfaces),
+        3 => settle::<9>(ball, surfaces),
+        _ => None,
+    }
+}
+
+/// The solution for `N` unknowns, three a surface.
+fn settle<const N: usize>(
+    ball: &Mover,
+    surfaces: &[Surface],
+) -> Option<SmallVec<[DVec3; SURFACES_MAX]>> {
     let frames: SmallVec<[[DVec3; 3]; SURFACES_MAX]> = surfaces
         .iter()
         .map(|surface| {
@@ -52,8 +63,8 @@ pub fn solve(ball: &Mover, surfaces: &[Surface]) -> Option<SmallVec<[DVec3; SURF
         .collect();
 
     // u = start + W J in the frames of the contacts.
-    let mut yields = [[0.0; UNKNOWNS]; UNKNOWNS];
-    let mut start = [0.0; UNKNOWNS];
+    let mut yields = [[0.0; N]; N];
+    let mut start = [0.0; N];
     for (i, frame) in frames.iter().enumerate() {
         let skin = ball.surface_velocity(frame[0]);
         for (p, axis) in frame.iter().enumerate() {
@@ -75,18 +86,18 @@ pub fn solve(ball: &Mover, surfaces: &[Surface]) -> Option<SmallVec<[DVec3; SURF
     let mut impulses = first_guess(&start, &yields, surfaces);
     for _ in 0..ITERATIONS {
         let mut velocity = start;
-        for (u, row) in velocity.iter_mut().zip(&yields).take(size) {
-            *u += row.iter().zip(&impulses).take(size).map(|(w, j)| w * j).sum::<f64>();
+        for (u, row) in velocity.iter_mut().zip(&yields) {
+            *u += row.iter().zip(&impulses).map(|(w, j)| w * j).sum::<f64>();
         }
-        let mut matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
-        let mut right = [0.0; UNKNOWNS];
+        let mut matrix = [[0.0; N]; N];
+        let mut right = [0.0; N];
         for (i, surface) in surfaces.iter().enumerate() {
-            rows(i, surface, &velocity, &yields, &impulses, &mut matrix, &mut right, size);
+            rows(i, surface, &velocity, &yields, &impulses, &mut matrix, &mut right);
         }
-        let change = eliminate(&mut matrix, &mut right, size)?;
+        let change = eliminate(&mut matrix, &mut right)?;
         let mut largest: f64 = 0.0;
         let mut moved: f64 = 0.0;
-        for (impulse, change) in impulses.iter_mut().zip(&change).take(size) {
+        for (impulse, change) in impulses.iter_mut().zip(&change) {
             *impulse += change;
             largest = largest.max(impulse.abs());
             moved = moved.max(change.abs());
@@ -98,29 +109,28 @@ pub fn solve(ball: &Mover, surfaces: &[Surface]) -> Option<SmallVec<[DVec3; SURF
             let vector = |i: usize| {
                 frames[i].iter().zip(&impulses[3 * i..]).map(|(axis, j)| *axis * *j).sum()
             };
-            return Some((0..count).map(vector).collect());
+            return Some((0..surfaces.len()).map(vector).collect());
         }
     }
     None
 }
 
 /// One sweep of projected Gauss-Seidel: which contacts act, and against which slip.
-fn first_guess(
-    start: &[f64; UNKNOWNS],
-    yields: &[[f64; UNKNOWNS]; UNKNOWNS],
+fn first_guess<const N: usize>(
+    start: &[f64; N],
+    yields: &[[f64; N]; N],
     surfaces: &[Surface],
-) -> [f64; UNKNOWNS] {
-    let mut impulses = [0.0; UNKNOWNS];
-    let size = 3 * surfaces.len();
-    let velocity = |impulses: &[f64; UNKNOWNS], k: usize| {
-        start[k] + yields[k].iter().zip(impulses).take(size).map(|(w, j)| w * j).sum::<f64>()
+) -> [f64; N] {
+    let mut impulses = [0.0; N];
+    let velocity = |impulses: &[f64; N], k: usize| {
+        start[k] + yields[k].iter().zip(impulses).map(|(w, j)| w * j).sum::<f64>()
     };
     for (i, surface) in surfaces.iter().enumerate() {
         let k = 3 * i;
         let lacks = surface.target_m_s - velocity(&impulses, k);
         impulses[k] = (lacks / yields[k][k]).max(0.0);
         let [a, b] = [k + 1, k + 2].map(|k| -velocity(&impulses, k) / yields[k][k]);
-        let (size, limit) = (libm::hypot(a, b), surface.friction * impulses[k]);
+        let (size, limit) = ((a * a + b * b).sqrt(), surface.friction * impulses[k]);
         let scale = if size > limit { limit / size } else { 1.0 };
         (impulses[k + 1], impulses[k + 2]) = (a * scale, b * scale);
     }
@@ -129,15 +139,14 @@ fn first_guess(
 
 /// The three linear equations of a contact for the change of the impulses.
 #[allow(clippy::too_many_arguments)]
-fn rows(
+fn rows<const N: usize>(
     index: usize,
     surface: &Surface,
-    velocity: &[f64; UNKNOWNS],
-    yields: &[[f64; UNKNOWNS]; UNKNOWNS],
-    impulses: &[f64; UNKNOWNS],
-    matrix: &mut [[f64; UNKNOWNS]; UNKNOWNS],
-    right: &mut [f64; UNKNOWNS],
-    size: usize,
+    velocity: &[f64; N],
+    yields: &[[f64; N]; N],
+    impulses: &[f64; N],
+    matrix: &mut [[f64; N]; N],
+    right: &mut [f64; N],
 ) {
     let (n, t, b) = (3 * index, 3 * index + 1, 3 * index + 2);
     // Open: no impulse at all.
@@ -153,7 +162,7 @@ fn rows(
 
     let stiff = 1.0 / yields[t][t];
     let trial = [impulses[t] - velocity[t] * stiff, impulses[b] - velocity[b] * stiff];
-    let length = libm::hypot(trial[0], trial[1]);
+    let length = (trial[0] * trial[0] + trial[1] * trial[1]).sqrt();
     let limit = surface.friction * impulses[n].max(0.0);
     // Sticks: no slip.
     if length <= limit {
@@ -168,7 +177,7 @@ fn rows(
     let turn = limit / length;
     for (own, k) in [(0, t), (1, b)] {
         right[k] = limit * along[own] - impulses[k];
-        for column in 0..size {
+        for column in 0..N {
             let change = [t, b].map(|k| {
                 let unit = if k == column { 1.0 } else { 0.0 };
                 unit - yields[k][column] * stiff
@@ -182,13 +191,9 @@ fn rows(
 }
 
 /// Gauss's elimination with the largest pivot of each column; none if the matrix is singular.
-fn eliminate(
-    matrix: &mut [[f64; UNKNOWNS]; UNKNOWNS],
-    right: &mut [f64; UNKNOWNS],
-    size: usize,
-) -> Option<[f64; UNKNOWNS]> {
-    for column in 0..size {
-        let pivot = (column..size)
+fn eliminate<const N: usize>(matrix: &mut [[f64; N]; N], right: &mut [f64; N]) -> Option<[f64; N]> {
+    for column in 0..N {
+        let pivot = (column..N)
             .max_by(|a, b| matrix[*a][column].abs().total_cmp(&matrix[*b][column].abs()))?;
         if matrix[pivot][column].abs() < 1e-12 {
             return None;
@@ -198,19 +203,19 @@ fn eliminate(
         let (head, tail) = matrix.split_at_mut(column + 1);
         let leading = &head[column];
         let inverse = 1.0 / leading[column];
-        for (offset, row) in tail.iter_mut().enumerate().take(size - column - 1) {
+        for (offset, row) in tail.iter_mut().enumerate() {
             let factor = row[column] * inverse;
             if factor != 0.0 {
-                for (entry, lead) in row.iter_mut().zip(leading).take(size).skip(column) {
+                for (entry, lead) in row.iter_mut().zip(leading).skip(column) {
                     *entry -= factor * lead;
                 }
                 right[column + 1 + offset] -= factor * right[column];
             }
         }
     }
-    let mut solution = [0.0; UNKNOWNS];
-    for row in (0..size).rev() {
-        let known: f64 = (row + 1..size).map(|k| matrix[row][k] * solution[k]).sum();
+    let mut solution = [0.0; N];
+    for row in (0..N).rev() {
+        let known: f64 = (row + 1..N).map(|k| matrix[row][k] * solution[k]).sum();
         solution[row] = (right[row] - known) / matrix[row][row];
     }
     Some(solution)
