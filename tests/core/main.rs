@@ -10,6 +10,8 @@ mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
 mod physics_explore;
+/// The laws that a scene chooses.
+mod physics_laws;
 /// Scenes that several physics tests share.
 mod physics_scenes;
 /// Racks: order of the balls, gaps, spotting.

@@ -315,7 +315,10 @@ impl FixedStep {
             let mut touches: SmallVec<[Touch; 6]> = SmallVec::new();
             touches.push(Touch::new(0, None, normal, law));
             for (normal, surface) in &met {
-                let law = self.parameters.surface(*surface);
+                let law = match surface {
+                    Surface::Cushion(_) => self.parameters.cushion_at(-mover.velocity.dot(*normal)),
+                    _ => self.parameters.surface(*surface),
+                };
                 let law = self.law_at(law, f64::INFINITY, lasting, index);
                 let touch = Touch::new(0, None, *normal, law);
                 touches.push(Touch { sticky_m_s: lasting, ..touch });
