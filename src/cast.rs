@@ -89,7 +89,7 @@ impl Cast {
         }
         let stands_in = scene.actors.as_ref().is_some_and(|actors| actors.input.is_some());
         let human = (scene.input.is_some() && !stands_in)
-            .then(|| Human::new(scene.human_players(), table.clone()));
+            .then(|| Human::new(scene.human_players(), table.clone()).with_ball_radius(radius_m));
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })
     }

@@ -4,10 +4,23 @@
 //! commands of one tick, exactly as a computer player gives them, and into the [`HumanView`] that
 //! the picture follows. Time comes in ticks; nothing here knows a window.
 
-mod human;
 mod raw;
-mod view;
-
-pub use human::Human;
 pub use raw::{Button, Key, RawInput};
+
+mod view;
 pub use view::{CameraPose, HumanMode, HumanView};
+
+pub mod feel;
+
+mod held;
+
+mod camera;
+
+mod sight;
+
+mod placing;
+
+mod tip;
+
+mod human;
+pub use human::Human;

@@ -1,35 +1,503 @@
 //! A person at mouse and keyboard.
+//!
+//! | | while aiming | while placing | while stroking |
+//! |---|---|---|---|
+//! | mouse | turns the cue | moves the cue ball | moves the tip along the shaft |
+//! | left button | held: a stroke | puts the ball down | let go: back to aiming |
+//! | right button held, arrows | tip offset | | |
+//! | Page up and down, Control and wheel | raises the butt | | |
+//! | space, `r` | tip to the middle | | |
+//! | Shift held | a tenth of everything | a tenth | |
+//!
+//! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
+//! helps, Escape or `p` pauses, and `q` in a pause quits.
 
-use super::{HumanView, RawInput};
-use crate::events::{Source, Topics};
+use super::camera::{Camera, Viewpoint};
+use super::feel::{
+    AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
+    LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT, OFFSET_PER_S, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
+};
+use super::held::Held;
+use super::placing::Placing;
+use super::tip::{Tip, address_path, stroke_path};
+use super::{Button, HumanMode, HumanView, Key, RawInput, sight};
+use crate::ai::withdrawal;
+use crate::ball::POOL_RADIUS_M;
+use crate::cue::{Aim, CuePath};
+use crate::events::{
+    Command, Event, Fact, FactKind, MenuAction, Source, Topic, Topics, Turn, Zone,
+};
 use crate::hash::StateHash;
-use crate::ids::PlayerId;
+use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
 use crate::table::Table;
-use crate::tick::{Delivered, Inflow, Outcome, Participant};
-use crate::units::Tick;
+use crate::tick::{Delivered, Frame, Inflow, Outcome, Participant};
+use crate::units::{TICK_S, Tick};
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
+
+/// Where the person stands in a turn.
+#[derive(Debug, Clone)]
+enum Stage {
+    /// Somebody else is at the table.
+    Waiting,
+    /// The cue ball is in hand.
+    Placing(Placing),
+    /// The cue is at the address.
+    Aiming,
+    /// The left button is held. Boxed: it is much larger than the others.
+    Stroking(Box<Tip>),
+    /// A ball was struck and the cue is withdrawn.
+    Struck,
+}
 
 /// The hand of one or two people who share mouse and keyboard.
 #[derive(Debug)]
 pub struct Human {
-    view: HumanView,
+    players: Vec<PlayerId>,
+    table: Arc<Table>,
+    radius_m: f64,
+    /// The table as it was last seen.
+    seen: Arc<Snapshot>,
+
+    stage: Stage,
+    turn: Option<Arc<Turn>>,
+    /// How the cue is held; its elevation is at least what clears balls and rails.
+    aim: Aim,
+    /// What the player raised the butt to [rad].
+    raised_rad: f64,
+    /// Middle of the cue ball that is aimed at [m].
+    centre: DVec3,
+    /// The way of the tip in the last tick of a stroke.
+    path: Option<CuePath>,
+    strength_m_s: f64,
+    ghost: Option<(DVec3, DVec2)>,
+
+    held: Held,
+    camera: Camera,
+    is_bird: bool,
+    help: bool,
+    paused: bool,
+    /// The last answer said that time stands still: the frame of the next one is not used.
+    was_paused: bool,
+    /// Commands that wait for the next frame.
+    pending: Frame,
+    /// The aim is not what physics was told last.
+    is_aim_new: bool,
 }
 
 impl Human {
     /// A hand that plays for `players` on `table`.
-    pub fn new(_players: Vec<PlayerId>, _table: Arc<Table>) -> Self {
-        Human { view: HumanView::default() }
+    pub fn new(players: Vec<PlayerId>, table: Arc<Table>) -> Self {
+        Human {
+            players,
+            table,
+            radius_m: POOL_RADIUS_M,
+            seen: Arc::default(),
+            stage: Stage::Waiting,
+            turn: None,
+            aim: Aim::default(),
+            raised_rad: 0.0,
+            centre: DVec3::ZERO,
+            path: None,
+            strength_m_s: 0.0,
+            ghost: None,
+            held: Held::default(),
+            camera: Camera::new(),
+            is_bird: false,
+            help: false,
+            paused: false,
+            was_paused: false,
+            pending: Frame::new(),
+            is_aim_new: false,
+        }
+    }
+
+    /// The same for a cue ball of another radius [m].
+    #[must_use]
+    pub fn with_ball_radius(mut self, radius_m: f64) -> Self {
+        self.radius_m = radius_m;
+        self
     }
 
     /// What the player does in `tick`, given what the devices said since the tick before.
-    pub fn inflow(&mut self, _tick: Tick, raw: &[RawInput]) -> Inflow {
-        Inflow { quit: raw.contains(&RawInput::Closed), ..Inflow::default() }
+    ///
+    /// While time stands still it is asked on and on for one tick; what it answers then counts
+    /// only as far as pause and quit go, so commands wait for the frame after.
+    pub fn inflow(&mut self, tick: Tick, raw: &[RawInput]) -> Inflow {
+        let mut up = 0.0;
+        let mut quit = false;
+        for input in raw {
+            quit |= self.take(*input, &mut up);
+        }
+        self.hold_keys();
+        self.camera.step();
+        if !self.paused {
+            self.move_tip(tick, up);
+        }
+        self.show_aim(tick);
+        self.follow_with_camera();
+
+        let frame = if self.was_paused { Frame::new() } else { std::mem::take(&mut self.pending) };
+        self.was_paused = self.paused;
+        // A person may act in any tick.
+        Inflow { frame, next: Some(tick.after(1)), paused: self.paused, quit }
     }
 
     /// What the picture shows of the player now.
     pub fn view(&self) -> HumanView {
-        self.view.clone()
+        let mut view = HumanView {
+            camera: self.camera.pose(),
+            aim: self.aim,
+            strength_m_s: self.strength_m_s,
+            help: self.help,
+            ..HumanView::default()
+        };
+        match &self.stage {
+            Stage::Waiting | Stage::Struck => {}
+            Stage::Placing(placing) => {
+                view.mode = HumanMode::Placing;
+                view.placing = Some(placing.at);
+                view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
+            }
+            Stage::Aiming => {
+                view.mode = HumanMode::Aiming;
+                view.ghost = self.ghost.map(|(place, _)| place);
+                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+            }
+            Stage::Stroking(tip) => {
+                view.mode = HumanMode::Stroking;
+                view.pulled_back_m = tip.pulled_back_m();
+                view.strength_m_s = tip.speed_m_s().abs();
+                view.ghost = self.ghost.map(|(place, _)| place);
+                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+            }
+        }
+        if self.paused {
+            view.mode = HumanMode::Paused;
+        }
+        view
+    }
+
+    /// Takes one report; adds to `up` what moves the tip. True if the game shall end.
+    fn take(&mut self, input: RawInput, up: &mut f64) -> bool {
+        match input {
+            RawInput::Moved { right, up: upwards } => self.moved(right, upwards, up),
+            RawInput::Button { button, down } => {
+                self.held.button(button, down);
+                match (button, down) {
+                    (Button::Left, true) => self.press(),
+                    (Button::Left, false) => self.let_go(),
+                    _ => {}
+                }
+            }
+            RawInput::Wheel { notches } => self.wheel(notches),
+            RawInput::Key { key, down } => {
+                self.held.key(key, down);
+                return down && self.key(key);
+            }
+            RawInput::FocusLost => {
+                self.held.forget();
+                self.let_go();
+            }
+            RawInput::Closed => return true,
+        }
+        false
+    }
+
+    fn fine(&self) -> f64 {
+        if self.held.has(Key::Shift) { FINE } else { 1.0 }
+    }
+
+    fn moved(&mut self, right: f64, upwards: f64, stroke: &mut f64) {
+        if self.held.has_button(Button::Middle) || self.held.has(Key::Letter('c')) {
+            self.camera.look(-right * LOOK_RAD_PER_HEIGHT, -upwards * LOOK_RAD_PER_HEIGHT);
+            return;
+        }
+        if self.paused {
+            return;
+        }
+        let fine = self.fine();
+        match &mut self.stage {
+            Stage::Waiting | Stage::Struck => {}
+            Stage::Placing(placing) => {
+                let by = DVec2::new(right, upwards) * (PLACING_M_PER_HEIGHT * fine);
+                placing.moved(by, self.table.bed.as_ref(), self.radius_m);
+            }
+            Stage::Aiming if self.held.has_button(Button::Right) => {
+                self.shift_tip(
+                    right * OFFSET_PER_HEIGHT * fine,
+                    upwards * OFFSET_PER_HEIGHT * fine,
+                );
+            }
+            Stage::Aiming => {
+                let turned = self.aim.azimuth_rad - right * AIM_RAD_PER_HEIGHT * fine;
+                let change = |aim: &mut Aim| aim.azimuth_rad = turned;
+                self.change_aim(change);
+            }
+            Stage::Stroking(_) => *stroke += upwards,
+        }
+    }
+
+    fn wheel(&mut self, notches: f64) {
+        if self.held.has(Key::Control) {
+            self.raise(notches * ELEVATION_RAD_PER_NOTCH * self.fine());
+        } else {
+            self.camera.zoom(libm::pow(ZOOM_PER_NOTCH, notches));
+        }
+    }
+
+    /// A key went down. True if the game shall end.
+    fn key(&mut self, key: Key) -> bool {
+        match key {
+            Key::Escape | Key::Letter('p') => self.pause_or_resume(),
+            Key::Letter('q') => return self.paused,
+            Key::Letter('v') => self.is_bird = !self.is_bird,
+            Key::Space | Key::Letter('r') if !self.paused => {
+                let middle = |aim: &mut Aim| {
+                    (aim.side_offset, aim.height_offset) = (0.0, 0.0);
+                };
+                self.change_aim(middle);
+            }
+            Key::Help => self.help = !self.help,
+            _ => {}
+        }
+        false
+    }
+
+    fn pause_or_resume(&mut self) {
+        self.paused = !self.paused;
+        if self.paused {
+            // Nobody holds a cue through a pause.
+            self.let_go();
+            self.say(Event::Menu(MenuAction::Pause));
+        } else {
+            self.say(Event::Menu(MenuAction::Resume));
+        }
+    }
+
+    /// What held keys do in one tick.
+    fn hold_keys(&mut self) {
+        if self.paused {
+            return;
+        }
+        let step = OFFSET_PER_S * TICK_S * self.fine();
+        let side = self.held.balance(Key::Right, Key::Left) * step;
+        let height = self.held.balance(Key::Up, Key::Down) * step;
+        if (side, height) != (0.0, 0.0) {
+            self.shift_tip(side, height);
+        }
+        let raise = self.held.balance(Key::PageUp, Key::PageDown);
+        if raise != 0.0 {
+            self.raise(raise * ELEVATION_RAD_PER_S * TICK_S * self.fine());
+        }
+    }
+
+    fn shift_tip(&mut self, right: f64, upwards: f64) {
+        self.change_aim(|aim| {
+            aim.side_offset += right;
+            aim.height_offset += upwards;
+        });
+    }
+
+    fn raise(&mut self, by_rad: f64) {
+        if self.paused || !matches!(self.stage, Stage::Aiming) {
+            return;
+        }
+        // From what is seen, so that lowering a cue that something holds up acts at once.
+        self.raised_rad = (self.aim.elevation_rad + by_rad).clamp(0.0, ELEVATION_MAX_RAD);
+        self.change_aim(|_| {});
+    }
+
+    /// Changes how the cue is held, if it is held to aim, and keeps it clear of everything.
+    fn change_aim(&mut self, change: impl FnOnce(&mut Aim)) {
+        if !matches!(self.stage, Stage::Aiming) {
+            return;
+        }
+        let mut aim = self.aim;
+        change(&mut aim);
+        aim = aim.limited();
+        let needed = sight::elevation_needed(aim, self.centre, &self.seen, &self.table);
+        aim.elevation_rad = self.raised_rad.max(needed);
+        if aim == self.aim {
+            return;
+        }
+        self.aim = aim;
+        self.is_aim_new = true;
+        self.sight();
+    }
+
+    fn sight(&mut self) {
+        let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
+        let (seen, bed) = (&self.seen, self.table.bed.as_ref());
+        self.ghost = sight::ghost(seen, bed, self.centre, DVec2::new(cos, sin));
+    }
+
+    /// The left button went down.
+    fn press(&mut self) {
+        if self.paused {
+            return;
+        }
+        match &mut self.stage {
+            Stage::Placing(placing) if !placing.is_put => {
+                placing.is_put = true;
+                let (position_m, zone) = (placing.at, placing.zone);
+                self.command(Command::PlaceBall { ball: BallId::CUE, position_m, zone });
+            }
+            Stage::Aiming => self.stage = Stage::Stroking(Box::new(Tip::new())),
+            _ => {}
+        }
+    }
+
+    /// The left button is let go, or counts as such: a stroke that has met nothing is none.
+    fn let_go(&mut self) {
+        if matches!(self.stage, Stage::Stroking(_)) {
+            self.stage = Stage::Aiming;
+            self.path = None;
+            // Shown at once, even if time stands still from here on: no solid cue is left behind.
+            self.is_aim_new = true;
+        }
+    }
+
+    /// Moves the tip by one tick of a stroke.
+    fn move_tip(&mut self, tick: Tick, up: f64) {
+        let contact = self.contact();
+        let Stage::Stroking(tip) = &mut self.stage else { return };
+        if let Some(stretch) = tip.step(up) {
+            let path = stroke_path(&self.aim, contact, stretch, tick.start_s());
+            self.path = Some(path.clone());
+            self.command(Command::MoveCue(Arc::new(path)));
+        }
+    }
+
+    /// Shows the cue at the address, if it is held differently than before.
+    fn show_aim(&mut self, tick: Tick) {
+        if self.is_aim_new && matches!(self.stage, Stage::Aiming) {
+            self.is_aim_new = false;
+            let path = address_path(&self.aim, self.contact(), tick.start_s());
+            self.command(Command::MoveCue(Arc::new(path)));
+        }
+    }
+
+    fn contact(&self) -> DVec3 {
+        self.aim.tip_at_contact(self.centre, self.radius_m)
+    }
+
+    fn follow_with_camera(&mut self) {
+        let behind_cue = Viewpoint::Cue { ball: self.centre, aim: self.aim };
+        let viewpoint = match self.stage {
+            Stage::Placing(_) => Viewpoint::Bird,
+            _ if self.is_bird => Viewpoint::Bird,
+            Stage::Waiting => Viewpoint::Overview,
+            Stage::Aiming | Stage::Stroking(_) | Stage::Struck => behind_cue,
+        };
+        self.camera.go_to(viewpoint);
+    }
+
+    fn say(&mut self, event: Event) {
+        self.pending.push(event.into());
+    }
+
+    fn command(&mut self, command: Command) {
+        self.say(Event::Command(command));
+    }
+
+    /// Takes one event of a tick's mail.
+    fn hear(&mut self, event: &Event, tick: Tick) {
+        match event {
+            Event::Turn(turn) if self.players.contains(&turn.player) => {
+                self.begin_turn(turn.clone());
+            }
+            Event::Turn(_) | Event::Verdict(_) => self.leave_table(),
+            Event::Fact(fact) => self.hear_fact(fact, tick),
+            _ => {}
+        }
+    }
+
+    fn hear_fact(&mut self, fact: &Fact, tick: Tick) {
+        match fact.kind {
+            FactKind::BallPlaced { ball: BallId::CUE, ok, .. } => {
+                if let Stage::Placing(placing) = &mut self.stage {
+                    placing.is_put = false;
+                    if ok {
+                        self.address();
+                    }
+                }
+            }
+            FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. }
+                if matches!(self.stage, Stage::Stroking(_)) =>
+            {
+                self.withdraw(fact, tick);
+            }
+            FactKind::Settled { .. } if matches!(self.stage, Stage::Struck) => self.leave_table(),
+            _ => {}
+        }
+    }
+
+    fn begin_turn(&mut self, turn: Arc<Turn>) {
+        let same = self
+            .turn
+            .as_ref()
+            .is_some_and(|own| (own.player, own.shot_number) == (turn.player, turn.shot_number));
+        // The referee calls again after a refused placement: the ball is still in hand.
+        if same && matches!(self.stage, Stage::Placing(_)) {
+            self.turn = Some(turn);
+            return;
+        }
+        self.leave_table();
+        let zone = match turn.ball_in_hand.zone() {
+            // A cue ball that is nowhere must be put down whatever the turn says.
+            None if sight::cue_ball(&self.seen).is_none() => Some(Zone::Anywhere),
+            zone => zone,
+        };
+        self.turn = Some(turn);
+        match zone {
+            Some(zone) => {
+                let bed = self.table.bed.as_ref();
+                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed));
+            }
+            None => self.address(),
+        }
+    }
+
+    /// Puts the cue behind the cue ball.
+    fn address(&mut self) {
+        let (Some(centre), Some(turn)) = (sight::cue_ball(&self.seen), &self.turn) else {
+            return;
+        };
+        let bed = self.table.bed.as_ref();
+        let first = sight::first_aim(turn, &self.seen, bed, centre.truncate());
+        self.stage = Stage::Aiming;
+        self.centre = centre;
+        self.raised_rad = 0.0;
+        self.aim = Aim::along(first);
+        self.change_aim(|_| {});
+        self.is_aim_new = true;
+        self.sight();
+    }
+
+    /// A ball was struck: takes the cue back before it can touch it again.
+    fn withdraw(&mut self, fact: &Fact, tick: Tick) {
+        let speed = self.path.as_ref().and_then(|path| path.piece_at(fact.time_s));
+        self.strength_m_s = speed.map_or(0.0, |piece| piece.at(fact.time_s).1.length());
+        if let Some(from) = self.seen.cue {
+            let path = withdrawal(&from, tick.end_s());
+            self.command(Command::MoveCue(Arc::new(path)));
+        }
+        self.path = None;
+        self.stage = Stage::Struck;
+    }
+
+    /// The turn is over, or another begins.
+    fn leave_table(&mut self) {
+        if matches!(self.stage, Stage::Aiming | Stage::Stroking(_) | Stage::Struck) {
+            self.command(Command::LiftCue);
+        }
+        self.stage = Stage::Waiting;
+        self.turn = None;
+        self.path = None;
+        self.is_aim_new = false;
+        self.ghost = None;
     }
 }
 
@@ -39,16 +507,30 @@ impl Participant for Human {
     }
 
     fn topics(&self) -> Topics {
-        Topics::NONE
+        Topics::of(&[
+            Topic::BallPlaced,
+            Topic::CueBallStruck,
+            Topic::BallTouched,
+            Topic::Settled,
+            Topic::Verdict,
+            Topic::Turn,
+        ])
     }
 
-    fn start(&mut self, _table: &Snapshot) -> Outcome {
+    fn start(&mut self, table: &Snapshot) -> Outcome {
+        self.seen = Arc::new(table.clone());
         Outcome::default()
     }
 
-    fn collect(&mut self, _delivered: &Delivered) -> Outcome {
+    /// Hears only: what a person does enters by frames, so that a recording holds all of it.
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        self.seen = delivered.table.clone();
+        for stamped in delivered.events.iter() {
+            self.hear(&stamped.event, delivered.tick);
+        }
         Outcome::default()
     }
 
+    /// Nothing: what a person intends is known to nobody until it enters.
     fn hash(&self, _hash: &mut StateHash) {}
 }

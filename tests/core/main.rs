@@ -9,6 +9,8 @@ mod ai;
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
+/// A person at mouse and keyboard, from raw reports to whole games.
+mod input;
 mod physics_explore;
 /// The laws that a scene chooses.
 mod physics_laws;

@@ -431,6 +431,8 @@ impl FixedStep {
             FactKind::BallTouched { ball, by: TouchedBy::Tip }
         };
         self.tell(at, kind);
+        // However softly: whoever waits for the end of a shot shall hear of it.
+        self.moved = true;
         let h = self.h;
         if let Some(motion) = &mut self.cue {
             motion.strike(start, tau, h, index, cue.velocity);

@@ -1,0 +1,101 @@
+//! What a player sees along the cue: which ball is met, how steep the cue must be held.
+
+use super::feel::{ELEVATION_MAX_RAD, ELEVATION_MIN_RAD};
+use crate::cue::{Aim, CUE_LENGTH_M, TIP_RADIUS_M, elevation_over_balls};
+use crate::events::{ShotKind, Turn};
+use crate::ids::BallId;
+use crate::physics::Snapshot;
+use crate::table::{Bed, Table};
+use glam::{DVec2, DVec3};
+
+/// By how much the cue is raised at a time to find a way past a ball [rad].
+const RAISE_RAD: f64 = 0.25 * std::f64::consts::PI / 180.0;
+
+/// Where the cue ball's middle is on the bed, if it is in play [m].
+pub(super) fn cue_ball(table: &Snapshot) -> Option<DVec3> {
+    table.on_table().find(|ball| ball.id == BallId::CUE).map(|ball| ball.position)
+}
+
+/// The middles of the object balls in play [m].
+pub(super) fn object_balls(table: &Snapshot) -> impl Iterator<Item = DVec3> + '_ {
+    table.on_table().filter(|ball| ball.id != BallId::CUE).map(|ball| ball.position)
+}
+
+/// Where a turn's first aim points: at the rack's apex on a break, else (or if nobody racked) at
+/// the nearest ball that may be met first, and along the table if there is none.
+pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: DVec2) -> DVec2 {
+    let is_racked =
+        |apex: &DVec2| object_balls(table).any(|ball| ball.truncate().distance(*apex) < ball.z);
+    let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break).filter(is_racked);
+    let nearest = || {
+        let may_be_met = |id: &BallId| turn.legal_first.contains(id);
+        let balls = table.on_table().filter(|ball| may_be_met(&ball.id));
+        balls
+            .map(|ball| ball.position.truncate())
+            .min_by(|a, b| a.distance_squared(from).total_cmp(&b.distance_squared(from)))
+    };
+    let target = apex.or_else(nearest).unwrap_or(from + DVec2::X);
+    (target - from).normalize_or(DVec2::X)
+}
+
+/// Smallest elevation at which the cue of `aim` clears hand, rails and balls behind the cue ball
+/// [rad].
+pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table: &Table) -> f64 {
+    let radius_m = centre.z;
+    let direction = Aim { elevation_rad: 0.0, ..aim }.direction().truncate();
+    let places = object_balls(others).map(DVec3::truncate);
+    let over_balls = elevation_over_balls(centre.truncate(), direction, places, radius_m);
+    let over_rail = table.clearance_elevation(centre.truncate(), aim.azimuth_rad);
+    let mut elevation_rad = over_balls.max(over_rail).max(ELEVATION_MIN_RAD);
+    // Both reckon with the middle of the ball; below the middle, the cue lies lower.
+    while elevation_rad < ELEVATION_MAX_RAD {
+        let held = Aim { elevation_rad, ..aim };
+        let tip = held.tip_at_contact(centre, radius_m);
+        let reach = radius_m + TIP_RADIUS_M;
+        let is_clear = |ball: DVec3| {
+            let back = (tip - ball).dot(held.direction()).clamp(0.0, CUE_LENGTH_M);
+            (tip - held.direction() * back).distance(ball) > reach
+        };
+        if object_balls(others).all(is_clear) {
+            break;
+        }
+        elevation_rad += RAISE_RAD;
+    }
+    elevation_rad.min(ELEVATION_MAX_RAD)
+}
+
+/// Where the cue ball's middle is when it meets the first ball or cushion on its straight way
+/// [m], and which way the ball that is met leaves; zero if it meets a cushion.
+pub(super) fn ghost(
+    table: &Snapshot,
+    bed: Option<&Bed>,
+    centre: DVec3,
+    direction: DVec2,
+) -> Option<(DVec3, DVec2)> {
+    let radius_m = centre.z;
+    let from = centre.truncate();
+    let met = object_balls(table).filter_map(|ball| {
+        let to = ball.truncate() - from;
+        let (along, beside) = (to.dot(direction), to.perp_dot(direction));
+        let rest = 4.0 * radius_m * radius_m - beside * beside;
+        (along > 0.0 && rest > 0.0).then(|| (along - rest.sqrt(), ball.truncate()))
+    });
+    let first = met.min_by(|a, b| a.0.total_cmp(&b.0));
+    let wall = bed.map(|bed| {
+        let half = 0.5 * DVec2::new(bed.length_m, bed.width_m) - DVec2::splat(radius_m);
+        let way = |from: f64, along: f64, half: f64| match along {
+            0.0 => f64::INFINITY,
+            _ => (half * along.signum() - from) / along,
+        };
+        way(from.x, direction.x, half.x).min(way(from.y, direction.y, half.y)).max(0.0)
+    });
+    let at = |way: f64| (from + direction * way).extend(radius_m);
+    match (first, wall) {
+        (Some((way, ball)), wall) if wall.is_none_or(|wall| way <= wall) => {
+            let ghost = at(way.max(0.0));
+            Some((ghost, (ball - ghost.truncate()).normalize_or_zero()))
+        }
+        (_, Some(wall)) => Some((at(wall), DVec2::ZERO)),
+        _ => None,
+    }
+}

@@ -1,0 +1,10 @@
+//! A person at mouse and keyboard, from raw reports to the game.
+
+/// Aiming and placing: what is held how, and what may not be.
+mod aim;
+/// A game in lockstep with a script at mouse and keyboard.
+mod desk;
+/// Whole turns and games of a person.
+mod play;
+/// Strokes: what the hand does is what the tip does.
+mod stroke;

@@ -1,0 +1,269 @@
+//! A desk: a game in lockstep with a script at mouse and keyboard.
+
+use hapticbillard::cast::Cast;
+use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Verdict};
+use hapticbillard::hash::StateHash;
+use hapticbillard::ids::BallId;
+use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
+use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput};
+use hapticbillard::lockstep::{Lockstep, Setup};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::scene::Scene;
+use hapticbillard::table::Table;
+use hapticbillard::tick::{
+    Delivered, Finished, Frame, FrameSource, Inflow, Outcome, Pace, Participant,
+};
+use hapticbillard::units::Tick;
+use std::sync::{Arc, Mutex};
+
+/// How a mouse reports, in reports a second.
+pub const RATES_HZ: [u32; 3] = [60, 125, 1000];
+
+/// What both sides of the desk share.
+struct Shared {
+    human: Human,
+    /// Reports for the next tick.
+    reports: Vec<RawInput>,
+    frames: Vec<(Tick, Frame)>,
+    asked: u64,
+    last: Inflow,
+    heard: Vec<Event>,
+}
+
+struct Hand(Arc<Mutex<Shared>>);
+
+impl FrameSource for Hand {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        let mut shared = self.0.lock().unwrap();
+        let reports = std::mem::take(&mut shared.reports);
+        let inflow = shared.human.inflow(tick, &reports);
+        if !inflow.frame.is_empty() {
+            shared.frames.push((tick, inflow.frame.clone()));
+        }
+        shared.asked += 1;
+        shared.last = inflow.clone();
+        inflow
+    }
+}
+
+impl Participant for Hand {
+    fn source(&self) -> Source {
+        Source::Input
+    }
+
+    fn topics(&self) -> Topics {
+        Topics::ALL
+    }
+
+    fn start(&mut self, table: &Snapshot) -> Outcome {
+        self.0.lock().unwrap().human.start(table)
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        let mut shared = self.0.lock().unwrap();
+        shared.heard.extend(delivered.events.iter().map(|stamped| stamped.event.clone()));
+        let topics = shared.human.topics();
+        let wanted = |topic| topics.contains(topic);
+        let events = delivered.events.iter().filter(|stamped| wanted(stamped.event.topic()));
+        let mail = Delivered { events: events.cloned().collect(), ..delivered.clone() };
+        // Without mail nobody is called.
+        if mail.events.is_empty() { Outcome::default() } else { shared.human.collect(&mail) }
+    }
+
+    fn hash(&self, _: &mut StateHash) {}
+}
+
+/// A scene with the free-play rules and these balls (id, x, y); 0 is the cue ball.
+pub fn free_play(balls: &[(u16, f64, f64)]) -> Scene {
+    let mut text = "[scene]\nname = \"Desk\"\n[physics]\nsolver = \"fixed-step\"\nstep_ms = 1.0\n\
+        [table]\npreset = \"pool-9ft\"\n[cue]\n[rules]\ngame = \"free-play\"\n\
+        [[player]]\nname = \"You\"\nkind = \"human\"\n[input]\nprofile = \"default\"\n"
+        .to_owned();
+    for (id, x, y) in balls {
+        text += &format!("[[ball]]\nid = {id}\nposition_m = [{x:?}, {y:?}]\n");
+    }
+    Scene::parse("desk.toml", &text).unwrap()
+}
+
+/// A shipped scene.
+pub fn shipped(name: &str) -> Scene {
+    Scene::parse(name, hapticbillard::shipped::scene(name).unwrap()).unwrap()
+}
+
+/// A game with a person.
+pub struct Desk {
+    game: Lockstep<'static>,
+    shared: Arc<Mutex<Shared>>,
+    pub finished: Option<Finished>,
+}
+
+impl Desk {
+    /// Before the first tick of `scene`.
+    pub fn new(scene: &Scene) -> Self {
+        let table = Arc::new(scene.build_table(&mut |_| unreachable!()).unwrap());
+        Desk::at(scene, table, Pace::EveryTick)
+    }
+
+    pub fn at(scene: &Scene, table: Arc<Table>, pace: Pace) -> Self {
+        let mut cast = Cast::new(scene, table).unwrap();
+        let human = cast.human.take().unwrap();
+        let shared = Arc::new(Mutex::new(Shared {
+            human,
+            reports: Vec::new(),
+            frames: Vec::new(),
+            asked: 0,
+            last: Inflow::default(),
+            heard: Vec::new(),
+        }));
+        let mut setup = Setup::headless(Tick(10_000_000));
+        setup.pace = pace;
+        setup.input = Some(Box::new(Hand(shared.clone())));
+        setup.observers.push(Box::new(Hand(shared.clone())));
+        Desk { game: Lockstep::new(cast, setup).unwrap(), shared, finished: None }
+    }
+
+    /// One tick in which the devices say this.
+    pub fn tick(&mut self, reports: &[RawInput]) {
+        self.shared.lock().unwrap().reports.extend_from_slice(reports);
+        let asked = self.shared.lock().unwrap().asked;
+        while self.finished.is_none() && self.shared.lock().unwrap().asked == asked {
+            self.finished = self.game.step().unwrap();
+        }
+    }
+
+    /// Nobody touches anything for so long.
+    pub fn wait(&mut self, ticks: u64) {
+        (0..ticks).for_each(|_| self.tick(&[]));
+    }
+
+    /// Nobody touches anything until this is so, or the game ends.
+    pub fn wait_until(&mut self, ticks_max: u64, is_so: impl Fn(&Desk) -> bool) {
+        for _ in 0..ticks_max {
+            if is_so(self) || self.finished.is_some() {
+                return;
+            }
+            self.tick(&[]);
+        }
+        panic!("not within {ticks_max} ticks");
+    }
+
+    pub fn mode(&self) -> HumanMode {
+        self.view().mode
+    }
+
+    pub fn view(&self) -> HumanView {
+        self.shared.lock().unwrap().human.view()
+    }
+
+    pub fn table(&self) -> &Snapshot {
+        self.game.table()
+    }
+
+    /// Everything that was delivered so far.
+    pub fn heard(&self) -> Vec<Event> {
+        self.shared.lock().unwrap().heard.clone()
+    }
+
+    pub fn facts(&self) -> Vec<Fact> {
+        let fact = |event| match event {
+            Event::Fact(fact) => Some(fact),
+            _ => None,
+        };
+        self.heard().into_iter().filter_map(fact).collect()
+    }
+
+    pub fn verdicts(&self) -> Vec<Arc<Verdict>> {
+        let verdict = |event| match event {
+            Event::Verdict(verdict) => Some(verdict),
+            _ => None,
+        };
+        self.heard().into_iter().filter_map(verdict).collect()
+    }
+
+    /// How often the tip met the cue ball.
+    pub fn tips(&self) -> usize {
+        let is_tip = |fact: &Fact| matches!(fact.kind, FactKind::CueBallStruck { .. });
+        self.facts().iter().filter(|fact| is_tip(fact)).count()
+    }
+
+    /// All frames that said anything.
+    pub fn frames(&self) -> Vec<(Tick, Frame)> {
+        self.shared.lock().unwrap().frames.clone()
+    }
+
+    /// The commands of all frames.
+    pub fn commands(&self) -> Vec<Command> {
+        let frames = self.frames().into_iter().flat_map(|(_, frame)| frame);
+        let command = |event| match event {
+            Event::Command(command) => Some(command),
+            _ => None,
+        };
+        frames.filter_map(|publication| command(publication.event)).collect()
+    }
+
+    /// What was answered in the last tick.
+    pub fn last(&self) -> Inflow {
+        self.shared.lock().unwrap().last.clone()
+    }
+
+    pub fn key(&mut self, key: Key) {
+        self.tick(&[RawInput::Key { key, down: true }]);
+        self.tick(&[RawInput::Key { key, down: false }]);
+    }
+
+    pub fn hold(&mut self, key: Key, ticks: u64) {
+        self.tick(&[RawInput::Key { key, down: true }]);
+        self.wait(ticks - 1);
+        self.tick(&[RawInput::Key { key, down: false }]);
+    }
+
+    pub fn button(&mut self, button: Button, down: bool) {
+        self.tick(&[RawInput::Button { button, down }]);
+    }
+
+    pub fn moved(&mut self, right: f64, up: f64) {
+        self.tick(&[RawInput::Moved { right, up }]);
+    }
+
+    /// Turns the cue to an azimuth, as a script computes it from the view and the gain.
+    pub fn turn_to(&mut self, azimuth_rad: f64) {
+        let off = azimuth_rad - self.view().aim.azimuth_rad;
+        let turn = std::f64::consts::TAU;
+        let shortest = off - turn * libm::round(off / turn);
+        self.moved(-shortest / AIM_RAD_PER_HEIGHT, 0.0);
+    }
+
+    /// Presses, pulls the tip back to `pull_m` behind the ball, and pushes the hand forwards at a
+    /// constant speed until the tip meets something, for two seconds at most. The mouse reports
+    /// `rate_hz` times a second.
+    pub fn stroke(&mut self, pull_m: f64, speed_m_s: f64, rate_hz: u32) {
+        self.button(Button::Left, true);
+        let way_m = pull_m - ADDRESS_GAP_M;
+        let back_ticks = 200;
+        self.sweep(-way_m / (back_ticks as f64 / 1000.0), back_ticks, rate_hz);
+        self.wait(100);
+        self.sweep(speed_m_s, 2000, rate_hz);
+        if self.finished.is_none() {
+            self.button(Button::Left, false);
+        }
+    }
+
+    /// Moves the hand at a constant speed while the stroke lasts.
+    pub fn sweep(&mut self, speed_m_s: f64, ticks: u64, rate_hz: u32) {
+        let rate = u64::from(rate_hz);
+        let up = speed_m_s / f64::from(rate_hz) / STROKE_M_PER_HEIGHT;
+        for tick in 1..=ticks {
+            if self.mode() != HumanMode::Stroking {
+                return;
+            }
+            // Reports come at whole periods; a tick takes those within its millisecond.
+            let reports = tick * rate / 1000 - (tick - 1) * rate / 1000;
+            let report = RawInput::Moved { right: 0.0, up };
+            self.tick(&vec![report; reports as usize]);
+        }
+    }
+
+    pub fn cue_ball(&self) -> &hapticbillard::ball::BallState {
+        self.table().ball(BallId::CUE).unwrap()
+    }
+}
