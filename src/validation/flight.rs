@@ -12,12 +12,14 @@ use glam::DVec3;
 
 /// Impacts that are followed one by one at most.
 const IMPACTS_MAX: usize = 10_000;
+/// A ball that is no higher lies on the table [m].
+const LIES_M: f64 = 1e-6;
 /// Times between two looks [s].
 const SHORTEST_S: Seconds = 1e-6;
 /// A ball whose velocity is off that of free fall by more than this has met something [m/s].
 const MET_M_S: f64 = 1e-9;
 /// The same for a stepper, whose velocity stands still within a step: in what gravity gives in one.
-const MET_STEPS: f64 = 1.5;
+const MET_STEPS: f64 = 2.5;
 
 /// A landing.
 struct Impact {
@@ -129,7 +131,7 @@ fn land(
 ) -> Result<Vec<Impact>, Trouble> {
     let mut impacts = Vec::new();
     // A ball that lies and moves into the table meets it at once.
-    let lies = (probe.state()?.position.z - radius).abs() < 1e-6;
+    let lies = (probe.state()?.position.z - radius).abs() < LIES_M;
     if lies && velocity.z < 0.0 {
         let mut after = probe.state()?;
         if after.velocity.z < 0.0 {
@@ -142,8 +144,10 @@ fn land(
     }
     while impacts.len() < IMPACTS_MAX {
         let (from, at) = (probe.state()?, probe.simulation.now_s());
-        // What has landed and does not rise is down, whatever its motion is called.
-        let down = from.motion != Motion::Airborne || !impacts.is_empty();
+        // What has landed and does not rise is down, whatever its motion is called; what hangs in
+        // the air for a moment is not.
+        let lies = (from.position.z - radius).abs() < LIES_M;
+        let down = (from.motion != Motion::Airborne && lies) || !impacts.is_empty();
         if down && from.velocity.z <= 0.0 {
             break;
         }
