@@ -315,7 +315,9 @@ impl Setup<'_> {
                 "subdivisions" => drop(self.counts(key)?),
                 "seeds" | "shots" => drop(self.count(key)?),
                 "topspin_over_rolling" => drop(self.topspin()?),
-                key if key.contains("_range_") || key == "f_band" => drop(self.range(key)?),
+                key if key.contains("_range_") || key == "f_band" => {
+                    self.range(key)?;
+                }
                 "hit_counts_outliers" => drop(self.switch(key)?),
                 "two_sided" => drop(self.switch(key)?),
                 "profile" | "law" => drop(self.word(key)?),
