@@ -39,6 +39,8 @@ pub mod rules;
 
 pub mod ai;
 
+pub mod validation;
+
 pub mod input;
 
 pub mod renderer;

@@ -12,6 +12,8 @@ mod geometry;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
 mod physics_explore;
+/// The laws that a scene chooses.
+mod physics_laws;
 /// Scenes that several physics tests share.
 mod physics_scenes;
 /// Racks: order of the balls, gaps, spotting.
@@ -26,3 +28,5 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// Cases with known answers, and catalogues of others.
+mod validation;
