@@ -35,3 +35,6 @@ pub mod pacer;
 pub mod runtime;
 
 pub mod game;
+
+#[cfg(feature = "renderer")]
+pub mod renderer;
