@@ -45,6 +45,8 @@ impl Stage {
         let mut parts: Vec<(Shader, Mesh)> = table
             .display()
             .iter()
+            // Marks are thinner than a pixel from afar: the cloth's shader paints them.
+            .filter(|part| part.material != Made::Line)
             .map(|part| {
                 (Shader::Surface(kind(part.material)), Mesh::new(context, &part_mesh(part)))
             })

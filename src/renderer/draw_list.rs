@@ -91,7 +91,13 @@ pub struct DrawList {
 impl DrawList {
     /// What a player sees of the world.
     pub fn new(world: &Snapshot, view: &HumanView, radii: &Radii) -> Self {
-        let balls = world.on_table().map(|ball| instance(ball, radii)).collect();
+        // A cue ball that lay on the table when it was taken up is in the hand now.
+        let in_hand = view.placing.map(|_| BallId::CUE);
+        let balls = world
+            .on_table()
+            .filter(|ball| Some(ball.id) != in_hand)
+            .map(|ball| instance(ball, radii))
+            .collect();
         let mut list = DrawList {
             camera: view.camera,
             balls,

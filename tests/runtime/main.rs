@@ -13,3 +13,6 @@ mod mocks;
 mod resources;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// A whole game in a window.
+#[cfg(feature = "renderer")]
+mod whole_game;

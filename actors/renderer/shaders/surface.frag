@@ -19,6 +19,13 @@ void main() {
     float nap = texture(grain, uvs * 2.2).r;
     albedo = vec3(0.012, 0.205, 0.098) * (0.86 + 0.28 * nap);
     vec2 inside = bed - abs(pos.xy);
+    // Head string, head spot and foot spot, never thinner than the picture can show.
+    float wide = max(fwidth(pos.x), fwidth(pos.y));
+    float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, abs(pos.x + 0.5 * bed.x)))
+        * step(0.0, inside.y) * min(1.0, 0.0035 / wide);
+    float spot = 1.0 - smoothstep(0.006, 0.006 + wide,
+        length(vec2(abs(pos.x) - 0.5 * bed.x, pos.y)));
+    albedo = mix(albedo, vec3(0.50, 0.60, 0.50), bed.x > 0.0 ? max(0.6 * line, 0.8 * spot) : 0.0);
     if (bed.x > 0.0) {
         open = mix(0.42, 1.0, smoothstep(-0.012, 0.055, min(inside.x, inside.y)));
         open *= 0.15 + 0.85 * smoothstep(-0.03, -0.001, pos.z);
