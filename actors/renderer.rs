@@ -21,6 +21,7 @@ mod textures;
 mod window;
 
 pub use offscreen::pixels;
+pub use textures::number_layer;
 pub use window::{NoWindow, Ports, WindowSetup, show};
 
 use hapticbillard::renderer::DrawList;

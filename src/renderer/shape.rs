@@ -133,7 +133,7 @@ pub fn cue_shape() -> Shape {
         for k in 0..CHORDS {
             let a = ring * (CHORDS + 1) + k;
             let b = a + CHORDS + 1;
-            shape.indices.extend([a, b + 1, b, a, a + 1, b + 1]);
+            shape.indices.extend([a, b, b + 1, a, b + 1, a + 1]);
         }
     }
     shape

@@ -9,6 +9,9 @@ mod cli;
 mod files;
 /// Who stands in for whom.
 mod mocks;
+/// Pictures without a window.
+#[cfg(feature = "renderer")]
+mod pictures;
 /// Threads and memory, counted from outside.
 mod resources;
 /// Actors against lockstep, replays, a mock hand.

@@ -6,6 +6,7 @@
 //! window gets there.
 
 use crate::cli::folder;
+use glam::DVec2;
 use hapticbillard::ai::{Goal, TableView2d, plan_shot};
 use hapticbillard::ball::POOL_RADIUS_M;
 use hapticbillard::cast::Cast;
@@ -26,7 +27,6 @@ use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use hapticbillard::units::Tick;
-use glam::DVec2;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::io::{BufRead, BufReader};
@@ -244,9 +244,10 @@ impl Desk {
         let mut words = vec![String::from("mousedown 1 sleep 0.08")];
         let steps = 12;
         let back = pixels(pull_m - ADDRESS_GAP_M) / f64::from(steps);
-        words.extend((0..steps).map(|_| {
-            format!("mousemove_relative -- 0 {} sleep 0.012", back.round().max(1.0))
-        }));
+        words.extend(
+            (0..steps)
+                .map(|_| format!("mousemove_relative -- 0 {} sleep 0.012", back.round().max(1.0))),
+        );
         words.push("sleep 0.12".into());
         // Movements are whole pixels: what is left over goes into the next.
         let step = pixels(speed_m_s * SPEED * STEP_S);
@@ -304,9 +305,30 @@ fn scene_text() -> String {
         .replace("height = 720", &format!("height = {}", SIZE.1))
 }
 
+/// The foul on purpose.
+fn is_meant(verdict: &Verdict) -> bool {
+    verdict.fouls.contains(&Foul::NoContact)
+}
+
+/// The direction from the cue ball in which a soft stroke is farthest from every ball.
+fn emptiest(view: &TableView2d, cue_ball: DVec2) -> DVec2 {
+    let room = |way: &DVec2| {
+        let away = view.balls.iter().map(|ball| {
+            let to = ball.position - cue_ball;
+            (to - *way * to.dot(*way).clamp(0.0, 0.7)).length()
+        });
+        // A cushion would send it somewhere else.
+        let end = cue_ball + *way * 0.5;
+        let is_inside = view.bed.holds(end, view.ball_radius_m);
+        away.fold(f64::INFINITY, f64::min) - if is_inside { 0.0 } else { 0.3 }
+    };
+    let ways = (0..72).map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::TAU / 72.0));
+    ways.max_by(|a, b| room(a).total_cmp(&room(b))).unwrap()
+}
+
 fn play(desk: &Desk) -> Seen {
     let mut random = Pcg64Mcg::seed_from_u64(5);
-    let mut own = 0;
+    let (mut own, mut has_followed) = (0, false);
     for _ in 0..150 {
         let Some(seen) = desk.foresee() else {
             desk.wait(0.1);
@@ -341,13 +363,16 @@ fn play(desk: &Desk) -> Seen {
         let goal = Goal::of(&turn, &view, in_hand);
         let plan = plan_shot(&view, cue_ball, &goal, 0.07, &mut random);
         let (mut way, mut speed_m_s) = (plan.direction, plan.speed_m_s);
-        if own == 1 {
-            // A foul on purpose: softly to the nearer long rail, past every ball.
-            way = DVec2::new(0.0, cue_ball.y.signum());
-            speed_m_s = 0.25;
+        let mine = |verdict: &&Arc<Verdict>| verdict.player == Some(PlayerId::ONE);
+        let has_fouled = seen.verdicts.iter().filter(mine).any(|verdict| is_meant(verdict));
+        if own > 0 && !has_fouled {
+            // A foul on purpose: softly, where no ball is.
+            way = emptiest(&view, cue_ball);
+            speed_m_s = 0.2;
         }
         desk.aim(way);
-        if own == 2 {
+        if !has_followed && own > 0 && has_fouled {
+            has_followed = true;
             // Follow: the tip above the middle, by the right button and the mouse.
             desk.event("mousedown 3");
             desk.wait(0.1);
@@ -421,7 +446,7 @@ fn a_whole_game_is_played_in_a_window_with_mouse_and_keys() {
 
     let seen = desk.foresee().unwrap();
     let own = || seen.verdicts.iter().filter(|verdict| verdict.player == Some(PlayerId::ONE));
-    assert!(own().any(|verdict| verdict.fouls.contains(&Foul::NoContact)), "the foul");
+    assert!(own().any(|verdict| is_meant(verdict)), "the foul");
     assert!(own().any(|verdict| verdict.legal && !verdict.pocketed.is_empty()), "a pot");
     assert!(seen.verdicts.iter().any(|verdict| verdict.player == Some(PlayerId::TWO)));
     assert!(seen.verdicts.last().is_some_and(|verdict| verdict.next_player.is_none()), "an end");

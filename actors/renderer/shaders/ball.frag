@@ -46,6 +46,6 @@ void main() {
     vec3 light = albedo * (received(pos, n) * open + bounce);
     float rim = 1.0 - max(dot(n, v), 0.0);
     float fresnel = 0.042 + 0.55 * rim * rim * rim * rim * rim;
-    light += surroundings(pos, reflect(-v, n)) * fresnel * mix(0.7, 1.0, open);
+    light += surroundings(pos, reflect(-v, n), 0.0) * fresnel * mix(0.7, 1.0, open);
     colour = vec4(developed(light), 1.0);
 }

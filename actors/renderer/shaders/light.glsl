@@ -24,14 +24,14 @@ vec3 received(vec3 at, vec3 normal) {
     return LAMP_COLOUR * sum * 0.92 + vec3(0.055, 0.058, 0.068) * (0.6 + 0.4 * normal.z);
 }
 
-// What a mirror at `at` sees in the direction `way`.
-vec3 surroundings(vec3 at, vec3 way) {
+// What a mirror at `at` sees in the direction `way`; `soft` [m] blurs the lamp of a rough one.
+vec3 surroundings(vec3 at, vec3 way, float soft) {
     if (way.z > 0.02) {
         vec2 hit = at.xy + way.xy * ((LAMP_HEIGHT - at.z) / way.z);
         float shade = abs(fract(hit.x / 0.78 + 0.5) - 0.5) * 0.78;
-        float lamp = (1.0 - smoothstep(0.21, 0.25, shade))
-            * (1.0 - smoothstep(0.14, 0.18, abs(hit.y)))
-            * (1.0 - smoothstep(1.0, 1.06, abs(hit.x)));
+        float lamp = (1.0 - smoothstep(0.21 - soft, 0.25 + soft, shade))
+            * (1.0 - smoothstep(0.14 - soft, 0.18 + soft, abs(hit.y)))
+            * (1.0 - smoothstep(1.0 - soft, 1.06 + soft, abs(hit.x)));
         return mix(ROOM * 3.0, vec3(0.05), way.z * 0.5) + LAMP_COLOUR * lamp * 5.0;
     }
     vec2 hit = at.xy - way.xy * (at.z / min(way.z, -0.02));
@@ -42,7 +42,7 @@ vec3 surroundings(vec3 at, vec3 way) {
 
 // From light to screen: a gentle shoulder, then the gamma of screens.
 vec3 developed(vec3 light) {
-    light *= 1.15;
+    light *= 1.35;
     light = light * (1.0 + light * 0.16) / (1.0 + light * 0.62);
     return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
 }

@@ -11,6 +11,6 @@ void main() {
     vec3 albedo = pow(col.rgb, vec3(2.2));
     float rim = 1.0 - max(dot(n, v), 0.0);
     vec3 light = albedo * received(pos, n);
-    light += surroundings(pos, reflect(-v, n)) * (0.035 + 0.3 * rim * rim * rim * rim);
+    light += surroundings(pos, reflect(-v, n), 0.04) * (0.035 + 0.3 * rim * rim * rim * rim);
     colour = vec4(developed(light), 1.0);
 }

@@ -69,7 +69,7 @@ void main() {
     if (gloss > 0.0) {
         float rim = 1.0 - max(dot(n, v), 0.0);
         float fresnel = 0.045 + 0.5 * rim * rim * rim * rim;
-        light += surroundings(pos, reflect(-v, n)) * fresnel * gloss * open;
+        light += surroundings(pos, reflect(-v, n), 0.12) * fresnel * gloss * open;
     }
 #if KIND == 8
     light = mix(light, ROOM, smoothstep(1.2, 3.2, length(away)));
