@@ -23,14 +23,14 @@ fn texture(name: &str, side: u32, data: Vec<u8>) -> CpuTexture {
     }
 }
 
-/// The numbers 1 to 15, one layer each, ink on nothing. Rows rise: the first is the lowest.
+/// The numbers 1 to 15, one layer each, ink on nothing.
 pub fn digits(context: &Context) -> Texture2DArray {
     let layers: Vec<CpuTexture> =
         (1..=15).map(|number| texture("number", SIDE, number_layer(number))).collect();
     Texture2DArray::new(context, &layers.iter().collect::<Vec<_>>())
 }
 
-/// One number in the middle of a square; 6 and 9 are underlined.
+/// One number in the middle of a square, rows from the top; 6 and 9 are underlined.
 pub fn number_layer(number: u16) -> Vec<u8> {
     let side = SIDE as usize;
     let mut ink = vec![0.0f32; side * side];
@@ -68,11 +68,7 @@ pub fn number_layer(number: u16) -> Vec<u8> {
             ink[y * side + side / 2 - 22..y * side + side / 2 + 22].fill(1.0);
         }
     }
-    // Text runs down, textures run up.
-    (0..side)
-        .rev()
-        .flat_map(|y| ink[y * side..(y + 1) * side].iter().map(|ink| (ink * 255.0) as u8))
-        .collect()
+    ink.iter().map(|ink| (ink * 255.0) as u8).collect()
 }
 
 /// A number from 0 to 1 for a place of a lattice that repeats.

@@ -81,7 +81,7 @@ pub fn cue_shape() -> Shape {
     const CHORDS: u32 = 20;
     let taper = |back: f64| {
         let s = ((back - 0.02) / (CUE_LENGTH_M - 0.02)).clamp(0.0, 1.0);
-        SHAFT_RADIUS_M + (BUTT_RADIUS_M - SHAFT_RADIUS_M) * s.powf(1.25)
+        SHAFT_RADIUS_M + (BUTT_RADIUS_M - SHAFT_RADIUS_M) * libm::pow(s, 1.25)
     };
     // The cap of the tip, then rings down to the butt: distance behind the tip's middle, radius.
     let cap_angle = libm::asin(SHAFT_RADIUS_M / TIP_RADIUS_M);

@@ -94,13 +94,13 @@ fn numbers_are_not_mirrored_and_stand_upright() {
     let layer = number_layer(7);
     let side = 128;
     let (mut plain, mut mirrored, mut upside) = (0, 0, 0);
-    for y in -11i32..=11 {
-        for x in -11i32..=11 {
-            let [r, g, b] = at(&pixels, (160 + x) as u32, (100 + y) as u32);
-            let is_ink = r + g + b < 240;
-            // About 15 pixels are the disc's radius.
+    for y in -12i32..=12 {
+        for x in -12i32..=12 {
+            let [r, g, b] = at(&pixels, (160 + x) as u32, (97 + y) as u32);
+            let is_ink = r + g + b < 330;
+            // About 19 pixels are the disc's radius; its middle is nearer to the eye than the cloth's.
             let texel = |x: i32, y: i32| {
-                let (u, v) = (64 + x * 64 / 15, 64 - y * 64 / 15);
+                let (u, v) = (64 + x * 64 / 19, 64 + y * 64 / 19);
                 layer[(v * side + u) as usize] > 128
             };
             plain += i32::from(is_ink == texel(x, y));
