@@ -179,8 +179,3 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         _ => Err(String::from("expected WIDTHxHEIGHT in pixels, such as 1280x720, 64 to 16384")),
     }
 }
-
-/// Until the runtime plays games, the commands that need it say so.
-fn no_runtime(command: &str) -> Error {
-    Error::input(command, "this build has no game runtime", "see `hapticbillard simulate --help`")
-}

@@ -3,6 +3,7 @@
 use crate::conductor::RunError;
 use crate::error::Error;
 use crate::files::{LineWriter, LoadedScene};
+use crate::pacer::StopFlag;
 use crate::runtime::{self, InputPort};
 use crate::stopwatch::{Stopwatch, Timed};
 use hapticbillard::cast::Cast;
@@ -124,6 +125,8 @@ pub struct Headless {
     pub stopwatch: Option<Stopwatch>,
     /// Who else watches.
     pub observers: Vec<Box<dyn Participant>>,
+    /// Ends a game of actors between two ticks.
+    pub stop: StopFlag,
 }
 
 /// Plays a game as fast as possible.
@@ -152,7 +155,15 @@ pub fn play_headless(stage: &Stage, how: Headless) -> Result<(Finished, Tally), 
             let record = how.record.map(|path| (path, stage.header()));
             let physics_thread = stage.scene.physics.thread;
             let base = runtime::Setup::headless(LIMIT);
-            let setup = runtime::Setup { input, record, verify, observers, physics_thread, ..base };
+            let setup = runtime::Setup {
+                input,
+                record,
+                verify,
+                observers,
+                physics_thread,
+                stop: how.stop,
+                ..base
+            };
             runtime::run(cast, setup)?
         }
         Driver::Lockstep => {

@@ -37,3 +37,6 @@ pub mod runtime;
 pub mod stopwatch;
 
 pub mod game;
+
+#[cfg(feature = "renderer")]
+pub mod renderer;

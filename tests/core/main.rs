@@ -18,6 +18,8 @@ mod physics_laws;
 mod physics_scenes;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+/// What a picture shows.
+mod renderer;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.

@@ -11,7 +11,13 @@ mod files;
 mod mocks;
 /// What enters from outside: pauses, wrong files.
 mod outside;
+/// Pictures without a window.
+#[cfg(feature = "renderer")]
+mod pictures;
 /// Threads and memory, counted from outside.
 mod resources;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// A whole game in a window.
+#[cfg(feature = "renderer")]
+mod whole_game;
