@@ -9,9 +9,8 @@ mod ai;
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
-mod physics_explore;
-/// Scenes that several physics tests share.
-mod physics_scenes;
+/// The stepper: accounts, motion, convergence, contacts, extremes, same bits, play on a table.
+mod physics;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
