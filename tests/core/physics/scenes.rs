@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use hapticbillard::ball::{Ball, BallPlace, BallState, Motion};
-use hapticbillard::events::{Fact, FactSet, Topics};
+use hapticbillard::events::{Fact, FactSet};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::fixed_step::FixedStep;
