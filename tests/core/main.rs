@@ -11,11 +11,10 @@ mod event_manager;
 mod geometry;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
-mod physics_explore;
+/// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.
+mod physics;
 /// The laws that a scene chooses.
 mod physics_laws;
-/// Scenes that several physics tests share.
-mod physics_scenes;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
 /// What a picture shows.

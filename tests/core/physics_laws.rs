@@ -1,6 +1,6 @@
 //! The laws that a scene chooses act in a simulation.
 
-use crate::physics_scenes::*;
+use crate::physics::scenes::*;
 use glam::DVec3;
 use hapticbillard::ids::Rail;
 use hapticbillard::mesh::Surface;

@@ -403,11 +403,13 @@ impl FixedStep {
         let position = self.bodies[index].path.at(tau);
         let normal = (position - tip).normalize_or(direction);
         let mut mover = self.bodies[index].mover();
-        let before = (mover.velocity, mover.kinetic_j());
-        let approach = -(mover.surface_velocity(normal) - velocity).dot(normal);
+        let before = mover.surface_velocity(normal);
+        let approach = -(before - velocity).dot(normal);
         let mut cue = Cue::new(&self.parameters, velocity, direction);
         let impact = cue_contact(&mut mover, &mut cue, normal);
-        self.ledger.cue_j += mover.kinetic_j() - before.1;
+        // Work of the impulse on the ball, whose surface moves with the mean of both velocities.
+        let after = mover.surface_velocity(normal);
+        self.ledger.cue_j += 0.5 * impact.impulse.dot(before + after);
         self.ledger.momentum.cue += impact.impulse;
         self.work.contacts += 1;
 

@@ -91,7 +91,7 @@ pub fn carry(ball: &mut Mover, normal: DVec3, law: &Carrying, h: Seconds) -> Imp
     if slip > 0.0 {
         ball.push(normal, friction);
     }
-    let impulse = friction + normal * normal_impulse;
+    let mut impulse = friction + normal * normal_impulse;
     let mut loss_j = -0.5 * impulse.dot(before + ball.surface_velocity(normal));
 
     let rolled = match (sticks, available > 0.0) {
@@ -99,7 +99,9 @@ pub fn carry(ball: &mut Mover, normal: DVec3, law: &Carrying, h: Seconds) -> Imp
         (true, false) => 1.0,
         (false, _) => 0.0,
     };
+    let slid = ball.velocity;
     loss_j += resist(ball, normal, normal_impulse, rolled, law, h);
+    impulse += (ball.velocity - slid) / ball.inverse_mass;
     Impact { impulse, sticks, loss_j }
 }
 
@@ -116,7 +118,7 @@ pub fn resist(
     if normal_impulse <= 0.0 {
         return 0.0;
     }
-    let kinetic = ball.kinetic_j();
+    let before = *ball;
 
     let lost = law.rolling_resistance * normal_impulse * ball.inverse_mass * rolled;
     let off = normal * ball.velocity.dot(normal);
@@ -142,7 +144,14 @@ pub fn resist(
     if spin == 0.0 && ball.velocity == DVec3::ZERO && rolled > 0.0 {
         ball.angular_velocity = DVec3::ZERO;
     }
-    kinetic - ball.kinetic_j()
+    // Work of the resistance: impulse and angular impulse, each times the mean of its velocity.
+    let part = |change: DVec3, sum: DVec3, inverse: f64| {
+        if inverse > 0.0 { change.dot(sum) / inverse } else { 0.0 }
+    };
+    let (v, v_after) = (before.velocity, ball.velocity);
+    let (w, w_after) = (before.angular_velocity, ball.angular_velocity);
+    -0.5 * (part(v_after - v, v_after + v, ball.inverse_mass)
+        + part(w_after - w, w_after + w, ball.inverse_inertia))
 }
 
 #[cfg(test)]
