@@ -181,7 +181,7 @@ fn a_sampled_wall_is_stable_up_to_its_limit_with_and_without_delay() {
         ends(case, Status::Fail).error.unwrap()
     };
     // From the eigenvalues of the loop, computed independently.
-    for (delay, expected) in [(0, 1001.855_283_75), (1, 334.358_715), (2, 200.957_278)] {
+    for (delay, expected) in [(0, 1_001.855_283_75), (1, 334.358_715), (2, 200.957_278)] {
         assert!((limit(delay) - expected).abs() < 1e-4, "{delay}: {}", limit(delay));
     }
 }
