@@ -21,6 +21,8 @@ mod scenes;
 
 mod rules;
 
+mod validate;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -65,6 +67,7 @@ enum Command {
     Scene(scene::SceneArgs),
     Scenes(scenes::ScenesArgs),
     Rules(rules::RulesArgs),
+    Validate(validate::ValidateArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -118,6 +121,7 @@ pub fn run() -> ExitCode {
         Command::Scene(args) => scene::run(&args, &mut out),
         Command::Scenes(args) => scenes::run(&args, &mut out),
         Command::Rules(args) => rules::run(&args, &mut out),
+        Command::Validate(args) => validate::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,
@@ -174,9 +178,4 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
         }
         _ => Err(String::from("expected WIDTHxHEIGHT in pixels, such as 1280x720, 64 to 16384")),
     }
-}
-
-/// Until the runtime plays games, the commands that need it say so.
-fn no_runtime(command: &str) -> Error {
-    Error::input(command, "this build has no game runtime", "see `hapticbillard simulate --help`")
 }

@@ -13,7 +13,7 @@ use hapticbillard::hash::Digest;
 use hapticbillard::lockstep::LockstepError;
 use hapticbillard::physics::{PhysicsError, Snapshot};
 use hapticbillard::replay::{Divergence, Line, Recording, TickHash};
-use hapticbillard::tick::{Advanced, Clock, End, Finished, Inflow, Next};
+use hapticbillard::tick::{Advanced, Clock, End, Finished, Frame, Inflow, Next};
 use hapticbillard::units::Tick;
 use kameo::prelude::*;
 use std::sync::Arc;
@@ -80,6 +80,8 @@ pub struct Conductor {
     /// Asked from the input before the first tick; none while nothing is known.
     next_frame: Option<Tick>,
     primed: bool,
+    /// What entered while time stood still: it is due in the first tick after that.
+    held: Frame,
     last: Last,
     verified: u64,
 }
@@ -95,7 +97,15 @@ impl Conductor {
     /// A conductor before the first tick.
     pub fn new(clock: Clock, below: Below) -> Self {
         let last = Last::default();
-        Conductor { clock, below, next_frame: None, primed: false, last, verified: 0 }
+        Conductor {
+            clock,
+            below,
+            next_frame: None,
+            primed: false,
+            held: Frame::new(),
+            last,
+            verified: 0,
+        }
     }
 }
 
@@ -155,7 +165,7 @@ impl Conductor {
                 }
             }
             Next::Frame(tick) => {
-                let inflow = self.inflow(tick).await?;
+                let mut inflow = self.inflow(tick).await?;
                 if inflow.quit {
                     self.clock.quit();
                     return self.finish(End::Quit).await;
@@ -163,6 +173,7 @@ impl Conductor {
                 if inflow.paused {
                     self.clock.pause();
                 }
+                inflow.frame.insert_many(0, self.held.drain(..));
                 if !inflow.frame.is_empty() {
                     // On disk before it is used.
                     self.record(Line::Frame { tick, publish: inflow.frame.clone() }).await?;
@@ -182,6 +193,7 @@ impl Conductor {
                     self.clock.quit();
                     return self.finish(End::Quit).await;
                 }
+                self.held.extend(inflow.frame);
                 if !inflow.paused {
                     self.clock.resume();
                 }
@@ -245,7 +257,7 @@ impl Conductor {
     async fn finish(&mut self, end: End) -> Result<Progress, RunError> {
         let tick = self.clock.now();
         if let Some(recording) = &self.below.verify {
-            recording.check_end(tick, self.verified)?;
+            recording.check_end(tick, end, self.verified)?;
         }
         self.record(Line::End { tick, reason: end }).await?;
         let hash = self.last.hash.clone();

@@ -74,6 +74,10 @@ pub enum Error {
     /// A simulation cannot begin or go on.
     #[error(transparent)]
     Physics(#[from] PhysicsError),
+    /// There is no picture.
+    #[cfg(feature = "renderer")]
+    #[error(transparent)]
+    Picture(#[from] crate::renderer::NoPicture),
     /// The operating system names no folder for data.
     #[error("there is no home folder to keep data in; set HOME")]
     NoHome,

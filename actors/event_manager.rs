@@ -147,9 +147,14 @@ impl EventManager {
                 }
             }
         }
-        // All were asked; the answers are taken in order of registration, whoever is first.
-        for (id, who, answer) in asked {
-            let answer = answer.await.map_err(|error| gone(who, tick, error))?;
+        // All were asked; who was asked last answers among the last, so that waiting for it first
+        // wakes this actor about once a tick and not once an answer.
+        let mut answers: SmallVec<[_; 8]> = SmallVec::new();
+        for (id, who, answer) in asked.into_iter().rev() {
+            answers.push((id, answer.await.map_err(|error| gone(who, tick, error))?));
+        }
+        // They are taken in order of registration, whoever was first.
+        for (id, answer) in answers.into_iter().rev() {
             self.core.answer(id, tick, answer.outcome, answer.digest)?;
         }
         Ok(Delivery { sealed: self.core.sealed(), digests: self.core.digests(), fact })

@@ -9,6 +9,7 @@ use hapticbillard::shipped;
 use std::fs::{self, File};
 use std::io::{Read, Write};
 use std::path::{Component, Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Largest mesh file that is read [bytes].
 pub const MESH_BYTES_MAX: u64 = 64 << 20;
@@ -152,6 +153,28 @@ pub fn recordings_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("recordings"))
 }
 
+/// A file name for a recording that begins now; names sort by age.
+pub fn new_recording_name() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    recording_name(since.as_secs(), since.subsec_millis())
+}
+
+/// The date and time (UTC) of so many seconds after the beginning of 1970, as a file name.
+fn recording_name(seconds: u64, milliseconds: u32) -> String {
+    // Days to years of 400, 100, 4 and 1, counted from the first of March (Fliegel and Van
+    // Flandern 1968 do the same with other divisions).
+    let days = seconds / 86_400 + 719_468;
+    let (era, day_of_era) = (days / 146_097, days % 146_097);
+    let year = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year + year / 4 - year / 100);
+    let month_from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+    let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
+    let year = year + era * 400 + u64::from(month <= 2);
+    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+    format!("{year:04}-{month:02}-{day:02}_{hour:02}{minute:02}{second:02}.{milliseconds:03}.jsonl")
+}
+
 /// Deletes all but the `keep` newest files that end in `.jsonl` in `folder`; names sort by age.
 pub fn keep_newest(folder: &Path, keep: usize) -> Result<(), Error> {
     let failed = |reason| Error::Write { path: folder.to_path_buf(), reason };
@@ -163,4 +186,16 @@ pub fn keep_newest(folder: &Path, keep: usize) -> Result<(), Error> {
     names.sort();
     let old = names.len().saturating_sub(keep);
     names[..old].iter().try_for_each(|path| fs::remove_file(path).map_err(failed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recordings_are_named_by_date_and_time() {
+        assert_eq!(recording_name(0, 7), "1970-01-01_000000.007.jsonl");
+        assert_eq!(recording_name(951_782_400, 0), "2000-02-29_000000.000.jsonl");
+        assert_eq!(recording_name(1_798_761_599, 999), "2026-12-31_235959.999.jsonl");
+    }
 }

@@ -3,7 +3,9 @@
 use crate::conductor::RunError;
 use crate::error::Error;
 use crate::files::{LineWriter, LoadedScene};
+use crate::pacer::StopFlag;
 use crate::runtime::{self, InputPort};
+use crate::stopwatch::{Stopwatch, Timed};
 use hapticbillard::cast::Cast;
 use hapticbillard::lockstep;
 use hapticbillard::physics::Simulation;
@@ -119,8 +121,12 @@ pub struct Headless {
     pub replay: Option<Arc<Recording>>,
     /// Whether the run is checked against it.
     pub verify: bool,
+    /// Measures how long computer players think.
+    pub stopwatch: Option<Stopwatch>,
     /// Who else watches.
     pub observers: Vec<Box<dyn Participant>>,
+    /// Ends a game of actors between two ticks.
+    pub stop: StopFlag,
 }
 
 /// Plays a game as fast as possible.
@@ -128,9 +134,15 @@ pub struct Headless {
 /// # Errors
 /// [`Error`] if it cannot begin, go on, or be recorded.
 pub fn play_headless(stage: &Stage, how: Headless) -> Result<(Finished, Tally), Error> {
-    let cast = stage.cast()?;
+    let mut cast = stage.cast()?;
     let scorer = Scorer::default();
-    let mut observers: Vec<Box<dyn Participant>> = vec![Box::new(scorer.clone())];
+    let mut observers: Vec<Box<dyn Participant>> = Vec::new();
+    if let Some(stopwatch) = how.stopwatch {
+        // Observers are registered right behind the players, so the order stays the same.
+        let timed = |player| Box::new(Timed::new(player, stopwatch.clone())) as Box<_>;
+        observers.extend(cast.players.drain(..).map(timed));
+    }
+    observers.push(Box::new(scorer.clone()));
     observers.extend(how.observers);
     let source = how.replay.clone().map(|recording| {
         let source: Box<dyn FrameSource> = Box::new(RecordedInput(recording));
@@ -143,7 +155,15 @@ pub fn play_headless(stage: &Stage, how: Headless) -> Result<(Finished, Tally), 
             let record = how.record.map(|path| (path, stage.header()));
             let physics_thread = stage.scene.physics.thread;
             let base = runtime::Setup::headless(LIMIT);
-            let setup = runtime::Setup { input, record, verify, observers, physics_thread, ..base };
+            let setup = runtime::Setup {
+                input,
+                record,
+                verify,
+                observers,
+                physics_thread,
+                stop: how.stop,
+                ..base
+            };
             runtime::run(cast, setup)?
         }
         Driver::Lockstep => {

@@ -34,4 +34,9 @@ pub mod pacer;
 
 pub mod runtime;
 
+pub mod stopwatch;
+
 pub mod game;
+
+#[cfg(feature = "renderer")]
+pub mod renderer;

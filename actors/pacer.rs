@@ -25,6 +25,8 @@ pub enum Tempo {
 
 /// How far a paced game may lag before it gives the lost time up.
 const LAG_MAX: Duration = Duration::from_millis(50);
+/// How long it waits at most [s].
+const WAIT_MAX_S: f64 = 86_400.0;
 /// How long the pacer sleeps at least.
 const GRAIN: Duration = Duration::from_millis(2);
 
@@ -78,7 +80,10 @@ pub async fn run(
 
 /// Waits until the tick's time has come; returns where time is counted from.
 async fn pace(start: (Instant, Tick), tick: Tick, rate: f64) -> (Instant, Tick) {
-    let due = start.0 + Duration::from_secs_f64((tick.0 - start.1.0) as f64 / 1000.0 / rate);
+    let passed_s = tick.0.saturating_sub(start.1.0) as f64 / 1000.0;
+    // However slow motion is asked for: a tick does not take longer than a day.
+    let wait = Duration::try_from_secs_f64((passed_s / rate).clamp(0.0, WAIT_MAX_S));
+    let due = start.0 + wait.unwrap_or_default();
     let now = Instant::now();
     if now + GRAIN < due {
         tokio::time::sleep_until(due).await;

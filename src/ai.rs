@@ -22,6 +22,9 @@ mod fallback;
 mod place;
 pub use place::{placements, zone_holds};
 
+mod learn;
+pub use learn::AimLearner;
+
 mod stroke;
 pub use stroke::{Stroke, approach, resting_pose, withdrawal};
 

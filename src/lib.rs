@@ -39,6 +39,8 @@ pub mod rules;
 
 pub mod ai;
 
+pub mod validation;
+
 pub mod input;
 
 pub mod renderer;
@@ -50,3 +52,8 @@ pub mod cast;
 pub mod lockstep;
 
 pub mod replay;
+
+/// The examples of the README, compiled and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -167,7 +167,7 @@ impl<'a> Lockstep<'a> {
             Next::Finished(end) => {
                 let tick = self.clock.now();
                 if let Some(recording) = &self.setup.verify {
-                    recording.check_end(tick, self.verified)?;
+                    recording.check_end(tick, end, self.verified)?;
                 }
                 self.record(Line::End { tick, reason: end });
                 let (hash, verified) = (self.hash.clone(), self.verified);

@@ -9,6 +9,7 @@ mod settings;
 mod snapshot;
 
 mod parameters;
+mod profiles;
 
 pub mod tolerance;
 
@@ -31,9 +32,11 @@ mod shot;
 mod simulation;
 
 pub use error::PhysicsError;
+pub use laws::choice::{BallLaw, CushionLaw, MultiContact};
 pub use laws::cue_ball::cue_contact;
 pub use ledger::{Ledger, Momentum};
 pub use parameters::{Contact, Parameters};
+pub use profiles::Equipment;
 pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
 pub use shot::{Shot, Strike, Trajectory};
 pub use simulation::Simulation;

@@ -1,1 +1,27 @@
-//! What to draw.
+//! What a picture shows, as plain data: everything about drawing but the drawing.
+//!
+//! A [`DrawList`] is made from a snapshot of the world and the player's view; a [`Hud`] from the
+//! [`Scoreboard`], which is reduced from events. Whoever owns a graphics library turns both into
+//! pixels; nothing here knows one.
+
+mod draw_list;
+
+mod look;
+
+mod playhead;
+
+mod shape;
+
+mod scoreboard;
+
+mod hud;
+
+mod words;
+
+pub use draw_list::{BallInstance, DrawList, GhostBall, Line, Radii};
+pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
+pub use look::{BallLook, ball_look};
+pub use playhead::{Playhead, between};
+pub use scoreboard::Scoreboard;
+pub use shape::{Shape, cue_shape, sphere};
+pub use words::Words;

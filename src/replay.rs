@@ -209,7 +209,7 @@ impl Recording {
         }
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let (_, first) = lines.next().ok_or(RecordingError::Empty)?;
-        let header = match parse_line(1, first, false)? {
+        let header = match parse_line(1, first)? {
             Line::Recording(header) => header,
             _ => {
                 return Err(wrong(
@@ -232,7 +232,13 @@ impl Recording {
                 return Err(wrong(number, "a line after the end", "delete it"));
             }
             let cut = number == total && !text.ends_with('\n');
-            match parse_line(number, line, cut)? {
+            let line = match parse_line(number, line) {
+                Ok(line) => line,
+                // Who was killed while writing leaves half a line: the rest is as good as ever.
+                Err(_) if cut => break,
+                Err(error) => return Err(error),
+            };
+            match line {
                 Line::Recording(_) => {
                     return Err(wrong(number, "a second header", "one file holds one recording"));
                 }
@@ -267,13 +273,19 @@ impl Recording {
     /// Whether a run that ended after `tick` with `verified` matching hashes was the whole game.
     ///
     /// # Errors
-    /// [`Divergence`] if the recording goes on where the run ended.
-    pub fn check_end(&self, tick: Tick, verified: u64) -> Result<(), Divergence> {
+    /// [`Divergence`] if the recording goes on where the run ended, or ended elsewhere.
+    pub fn check_end(&self, tick: Tick, end: End, verified: u64) -> Result<(), Divergence> {
         if verified < self.hashes.len() as u64 {
             let what = "the end of the game: the recording goes on, and that".into();
             return Err(Divergence { tick, what });
         }
-        Ok(())
+        match self.end {
+            // Where else a game ends depends on whether it jumps.
+            Some((last, End::Over)) if (last, End::Over) != (tick, end) => {
+                Err(Divergence { tick, what: "the end of the game".into() })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The frame of `tick`; empty if there is none.
@@ -302,10 +314,16 @@ pub struct RecordedInput(pub Arc<Recording>);
 impl FrameSource for RecordedInput {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         let recording = &self.0;
-        let quit = matches!(recording.end, Some((last, End::Quit)) if tick > last);
-        let next = match recording.end {
+        // Somebody quit, or the recording was cut off and nobody knows what came then.
+        let last = match recording.end {
+            Some((last, End::Quit)) => Some(last),
+            None => Some(recording.last_tick()),
+            Some(_) => None,
+        };
+        let quit = last.is_some_and(|last| last < tick);
+        let next = match last {
             // The one tick at which there is to quit.
-            Some((last, End::Quit)) if tick >= last => Some(last.after(1)),
+            Some(last) if last <= tick => Some(last.after(1)),
             _ => recording.next_after(tick),
         };
         Inflow { frame: recording.frame(tick), next, paused: false, quit }
@@ -318,16 +336,17 @@ fn wrong(line: usize, problem: &str, remedy: &'static str) -> RecordingError {
     RecordingError::Line { line, column: 1, problem: problem.into(), remedy }
 }
 
-fn parse_line(number: usize, line: &str, cut: bool) -> Result<Line, RecordingError> {
+fn parse_line(number: usize, line: &str) -> Result<Line, RecordingError> {
     serde_json::from_str(line).map_err(|error| {
-        let remedy = if cut || error.is_eof() {
-            "the file ends inside this line; delete it to replay the rest"
-        } else {
-            "restore the file, or delete this line and all after it to replay the rest"
+        let remedy = match number {
+            1 => "a recording begins with {\"recording\":{…}}; is it the right file?",
+            _ => "restore the file, or delete this line and all after it to replay the rest",
         };
         // The message ends with its own place, which is that inside the line.
         let text = error.to_string();
-        let problem = text.split(" at line ").next().unwrap_or(&text).replace('\n', " ");
+        let problem = text.split(" at line ").next().unwrap_or(&text);
+        // What stands in the file may stand in the message, and that is one line.
+        let problem = problem.replace(char::is_control, "\u{fffd}");
         RecordingError::Line { line: number, column: error.column().max(1), problem, remedy }
     })
 }
@@ -368,6 +387,30 @@ mod tests {
         assert_eq!(recording.end, Some((Tick(9), End::Quit)));
     }
 
+    #[test]
+    fn a_recording_that_was_cut_off_is_read_as_far_as_it_goes() {
+        let whole = text(&[header(), frame(3), frame(5)]);
+        let cut = Recording::parse(&whole[..whole.len() - 9]).unwrap();
+        assert_eq!(cut.frames.keys().collect::<Vec<_>>(), [&Tick(3)]);
+        let mut input = RecordedInput(Arc::new(cut));
+        assert_eq!(input.inflow(Tick(0)).next, Some(Tick(3)));
+        // Nobody knows what came then: it ends, whoever could go on.
+        assert_eq!(input.inflow(Tick(3)).next, Some(Tick(4)));
+        assert!(!input.inflow(Tick(3)).quit && input.inflow(Tick(4)).quit);
+    }
+
+    #[test]
+    fn a_game_that_ended_elsewhere_is_not_the_recorded_one() {
+        let end = Line::End { tick: Tick(9), reason: End::Over };
+        let recording = Recording::parse(&text(&[header(), end])).unwrap();
+        assert_eq!(recording.check_end(Tick(9), End::Over, 0), Ok(()));
+        for (tick, end) in [(Tick(8), End::Over), (Tick(9), End::Idle)] {
+            let divergence = recording.check_end(tick, end, 0).unwrap_err();
+            assert_eq!(divergence.tick, tick);
+            assert!(divergence.what.contains("end of the game"), "{divergence}");
+        }
+    }
+
     #[track_caller]
     fn check_error(text: &str, expected: &str) {
         let error = Recording::parse(text).unwrap_err().to_string();
@@ -380,8 +423,9 @@ mod tests {
         check_error("", "line 1: the file is empty");
         check_error("{}", "line 1, column 2");
         let whole = text(&[header(), frame(3)]);
-        check_error(&whole[..whole.len() - 9], "line 2");
-        check_error(&whole[..whole.len() - 9], "delete it to replay the rest");
+        check_error(&whole[..40], "line 1, column 40: EOF");
+        check_error(&whole.replace("\"publish\"", "\"pub\""), "line 2, column");
+        check_error(&whole.replace("\"publish\"", "\"pub\""), "delete this line and all after it");
         check_error(&text(&[header(), frame(3), frame(2)]), "line 3, column 1: ticks are not in");
         check_error(&text(&[frame(3)]), "the first line is no header");
         check_error(&whole.replace("\"version\":1", "\"version\":99"), "format version 99");

@@ -13,6 +13,9 @@ pub const SCENES: &[(&str, &str)] = &[
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),
 ];
 
+/// The catalogue of cases with known answers.
+pub const CASES: &str = include_str!("../config/validation/cases.json");
+
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {
     TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)

@@ -14,6 +14,7 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::{Headless, Stage, play_headless};
 use hapticbillard_actors::pacer::describe;
+use hapticbillard_actors::stopwatch::Stopwatch;
 use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
@@ -81,16 +82,33 @@ struct GameLine<'a> {
     ticks: u64,
     state_hash: Option<Digest>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    cpu_ms_per_decision: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     wall_ms: Option<f64>,
 }
 
-/// The totals of a match. Arrays hold player 1, then player 2.
+/// A value for each player, by the player's number.
+#[derive(Default, Serialize)]
+struct PerPlayer<T> {
+    #[serde(rename = "1")]
+    one: T,
+    #[serde(rename = "2")]
+    two: T,
+}
+
+impl<T> From<[T; 2]> for PerPlayer<T> {
+    fn from([one, two]: [T; 2]) -> Self {
+        PerPlayer { one, two }
+    }
+}
+
+/// The totals of a match. Arrays hold player 1, then player 2, as in a line.
 #[derive(Default, Serialize)]
 struct Summary {
     games: u32,
-    wins: [u32; 2],
+    wins: PerPlayer<u32>,
     /// Wilson's 95 % interval of each player's chance to win a decided game.
-    interval95: [[f64; 2]; 2],
+    interval95: PerPlayer<[f64; 2]>,
     draws: u32,
     stalled: u32,
     shots: [u32; 2],
@@ -125,7 +143,7 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let seed = args.seed.unwrap_or(scene.about.seed);
     let bar = progress(u64::from(args.games), "games");
     let names: Vec<String> = scene.players.iter().map(|player| player.name.clone()).collect();
-    let play = |game: u32| -> Result<(Finished, Tally, f64), Error> {
+    let play = |game: u32| -> Result<(Finished, Tally, Took), Error> {
         let overrides = Overrides {
             seed: Some(seed_of(seed, u64::from(game))),
             // They break in turn.
@@ -135,26 +153,33 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
         };
         let file = format!("game_{:04}.jsonl", game + 1);
         let record = args.record.as_ref().map(|folder| folder.join(file));
-        let how = Headless { driver: args.driver.into(), record, ..Headless::default() };
+        let stopwatch = args.timing.then(Stopwatch::default);
+        let driver = args.driver.into();
+        let how = Headless { driver, record, stopwatch: stopwatch.clone(), ..Headless::default() };
         let start = Instant::now();
         let (finished, tally) = play_headless(&stage.with(overrides), how)?;
-        Ok((finished, tally, start.elapsed().as_secs_f64() * 1e3))
+        let took = Took {
+            cpu_ms_per_decision: stopwatch.and_then(|watch| watch.cpu_ms_per_decision()),
+            wall_ms: start.elapsed().as_secs_f64() * 1e3,
+        };
+        Ok((finished, tally, took))
     };
     let mut summary = Summary { games: args.games, ..Summary::default() };
+    let mut wins = [0; 2];
     in_order(args.games, play, |game, result| {
-        let (finished, tally, wall_ms) = result?;
-        count(&mut summary, &tally);
+        let (finished, tally, took) = result?;
+        count(&mut summary, &mut wins, &tally);
         bar.inc(1);
         let state_hash = finished.hash.as_ref().map(TickHash::all);
         if args.json {
-            let wall_ms = args.timing.then_some(wall_ms);
             let line = GameLine {
                 game: game + 1,
                 players: &names,
                 tally: &tally,
                 ticks: finished.tick.0,
                 state_hash,
-                wall_ms,
+                cpu_ms_per_decision: took.cpu_ms_per_decision,
+                wall_ms: args.timing.then_some(took.wall_ms),
             };
             json_line(out, &line)?;
         } else {
@@ -165,7 +190,10 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
             };
             let [[a, b], [c, d], [e, f]] = [tally.shots, tally.fouls, tally.pots];
             let clear = if tally.run_out { ", table run" } else { "" };
-            let took = if args.timing { format!(", {wall_ms:.0} ms") } else { String::new() };
+            let took = match took.cpu_ms_per_decision {
+                Some(ms) => format!(", {:.0} ms, {ms:.3} ms a decision", took.wall_ms),
+                None => String::new(),
+            };
             writeln!(
                 out,
                 "game {:>3}: {winner}; shots {a}-{b}, fouls {c}-{d}, balls {e}-{f}{clear}{took}",
@@ -175,12 +203,14 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
         Ok(out.flush()?)
     })?;
     bar.finish_and_clear();
-    summary.interval95 = interval95(summary.wins);
+    let intervals = interval95(wins);
+    summary.wins = wins.into();
+    summary.interval95 = intervals.into();
     if args.json {
         json_line(out, &serde_json::json!({ "summary": summary }))?;
     } else {
-        let [a, b] = summary.wins;
-        let [[low, high], _] = summary.interval95;
+        let [a, b] = wins;
+        let [[low, high], _] = intervals;
         writeln!(
             out,
             "{} {a} : {b} {} in {} games, {} drawn; {} wins {:.0} to {:.0} % (95 %)",
@@ -196,9 +226,15 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
     Ok(if summary.stalled == 0 { Status::Success } else { Status::CheckFailed })
 }
 
-fn count(summary: &mut Summary, tally: &Tally) {
+/// How long a game took.
+struct Took {
+    cpu_ms_per_decision: Option<f64>,
+    wall_ms: f64,
+}
+
+fn count(summary: &mut Summary, wins: &mut [u32; 2], tally: &Tally) {
     match tally.winner {
-        Some(player) => summary.wins[player.index()] += 1,
+        Some(player) => wins[player.index()] += 1,
         None if tally.over => summary.draws += 1,
         None => summary.stalled += 1,
     }

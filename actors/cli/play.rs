@@ -1,8 +1,21 @@
 //! `hapticbillard [play]`: the game.
 
-use super::{Driver, Status, no_runtime, positive};
+#[cfg(feature = "renderer")]
+mod in_window;
+
+use super::{Driver, Status, positive};
 use clap::Args;
+use hapticbillard::events::{Event, Source, Topic, Topics};
+use hapticbillard::hash::StateHash;
+use hapticbillard::physics::Snapshot;
+use hapticbillard::rules::{Language, Texts};
+use hapticbillard::scene::Overrides;
+use hapticbillard::tally::Tally;
+use hapticbillard::tick::{Delivered, Outcome, Participant};
 use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::{keep_newest, load_scene, new_recording_name, recordings_folder};
+use hapticbillard_actors::game::{Headless, Stage, play_headless};
+use hapticbillard_actors::pacer::{StopFlag, describe};
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -44,7 +57,158 @@ pub struct PlayArgs {
     pub speed: f64,
 }
 
+/// How many games are kept in the data folder.
+const KEPT: usize = 20;
+
+/// The scene that is played where there is no window.
+const HEADLESS: &str = "eight_ball_headless";
+
 /// Plays.
-pub fn run(_args: &PlayArgs, _out: &mut dyn Write) -> Result<Status, Error> {
-    Err(no_runtime("play"))
+pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    let stage = stage(args, &args.scene)?;
+    if stage.scene.renderer.is_none() {
+        return play_without_window(args, &stage, out);
+    }
+    match play_in_window(args, &stage, out)? {
+        Ok(status) => Ok(status),
+        Err(why) => {
+            eprintln!("{why}: {HEADLESS} is played without a window");
+            play_without_window(args, &self::stage(args, HEADLESS)?, out)
+        }
+    }
 }
+
+fn stage(args: &PlayArgs, scene: &str) -> Result<Stage, Error> {
+    let stage = Stage::new(&load_scene(scene)?, scene)?;
+    Ok(stage.with(Overrides { seed: args.seed, ..Overrides::default() }))
+}
+
+/// Where a game is recorded: where the player says, or into the data folder.
+fn recording(args: &PlayArgs) -> Option<PathBuf> {
+    if args.no_record {
+        return None;
+    }
+    if args.record.is_some() {
+        return args.record.clone();
+    }
+    match recordings_folder() {
+        Ok(folder) => Some(folder.join(new_recording_name())),
+        Err(error) => {
+            log::warn!("the game is not recorded: {error}");
+            None
+        }
+    }
+}
+
+/// Deletes old recordings, if this one went into the data folder.
+fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
+    if args.record.is_some() {
+        return;
+    }
+    if let Some(folder) = path.and_then(|path| path.parent())
+        && let Err(error) = keep_newest(folder, KEPT)
+    {
+        log::warn!("{error}");
+    }
+}
+
+/// Ends the game in order when somebody presses Ctrl-C.
+fn stop_at_interrupt() -> StopFlag {
+    let stop = StopFlag::default();
+    let flag = stop.clone();
+    // Without a handler Ctrl-C ends the program at once, and leaves a recording without its end.
+    if let Err(error) = ctrlc::set_handler(move || flag.set()) {
+        log::warn!("Ctrl-C will not end the game in order: {error}");
+    }
+    stop
+}
+
+fn play_without_window(
+    args: &PlayArgs,
+    stage: &Stage,
+    out: &mut dyn Write,
+) -> Result<Status, Error> {
+    let record = recording(args);
+    let names: Vec<String> = stage.scene.players.iter().map(|player| player.name.clone()).collect();
+    let how = Headless {
+        driver: args.driver.into(),
+        record: record.clone(),
+        observers: vec![Box::new(LiveScore::new(&names))],
+        stop: stop_at_interrupt(),
+        ..Headless::default()
+    };
+    let (finished, tally) = play_headless(stage, how)?;
+    tidy_up(args, record.as_ref());
+    match tally.winner {
+        Some(player) => {
+            let name = names.get(player.index()).map_or("", String::as_str);
+            let shots: u32 = tally.shots.iter().sum();
+            writeln!(out, "{name} wins after {shots} shots")?;
+        }
+        None => writeln!(out, "{}", describe(finished.end))?,
+    }
+    Ok(Status::Success)
+}
+
+/// Tells every shot on stderr as it is judged.
+struct LiveScore {
+    texts: Texts,
+    names: Vec<String>,
+    tally: Tally,
+}
+
+impl LiveScore {
+    fn new(names: &[String]) -> Self {
+        let texts = Texts::new(Language::English);
+        let texts = match names {
+            [one, two] => texts.with_names(one, two),
+            _ => texts,
+        };
+        LiveScore { texts, names: names.to_vec(), tally: Tally::default() }
+    }
+}
+
+impl Participant for LiveScore {
+    fn source(&self) -> Source {
+        Source::Runtime
+    }
+
+    fn topics(&self) -> Topics {
+        Topics::of(&[Topic::Verdict])
+    }
+
+    fn start(&mut self, _: &Snapshot) -> Outcome {
+        Outcome::default()
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        for stamped in delivered.events.iter() {
+            if let Event::Verdict(verdict) = &stamped.event {
+                self.tally.count(verdict);
+                let shot: u32 = self.tally.shots.iter().sum();
+                let player = verdict.player.and_then(|player| self.names.get(player.index()));
+                let player = player.map_or("", String::as_str);
+                let [a, b] = self.tally.pots;
+                let said = self.texts.verdict(verdict);
+                eprintln!("shot {shot:>3}, balls {a}-{b}: {player}: {said}");
+            }
+        }
+        Outcome::default()
+    }
+
+    fn hash(&self, _: &mut StateHash) {}
+}
+
+#[cfg(not(feature = "renderer"))]
+fn play_in_window(
+    _: &PlayArgs,
+    _: &Stage,
+    _: &mut dyn Write,
+) -> Result<Result<Status, String>, Error> {
+    Ok(Err("this build has no window".into()))
+}
+
+#[cfg(feature = "renderer")]
+use in_window::play_in_window;
+#[cfg(feature = "renderer")]
+pub use in_window::{has_display, replay_in_window};

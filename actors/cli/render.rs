@@ -1,6 +1,6 @@
 //! `hapticbillard render`: one picture without a window.
 
-use super::{Status, no_runtime, not_negative, size};
+use super::{Status, not_negative, size};
 use clap::Args;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
@@ -36,7 +36,52 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
+/// What was written.
+#[cfg(feature = "renderer")]
+#[derive(serde::Serialize)]
+struct Summary<'a> {
+    out: &'a std::path::Path,
+    width: u32,
+    height: u32,
+    time_s: f64,
+    balls: usize,
+    bytes: usize,
+}
+
 /// Renders.
-pub fn run(_args: &RenderArgs, _out: &mut dyn Write) -> Result<Status, Error> {
-    Err(no_runtime("render"))
+#[cfg(feature = "renderer")]
+pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    use hapticbillard::events::FactSet;
+    use hapticbillard::input::HumanView;
+    use hapticbillard::renderer::{DrawList, Radii};
+    use hapticbillard_actors::files::{load_scene, write_whole};
+    use hapticbillard_actors::game::Stage;
+    use hapticbillard_actors::renderer::png;
+
+    let stage = Stage::new(&load_scene(&args.scene)?, &args.scene)?;
+    let mut simulation = stage.simulation()?;
+    simulation.advance(args.at, FactSet::NONE, &mut Vec::new())?;
+    let world = simulation.snapshot(args.at);
+    let balls = stage.scene.build_balls(&stage.table)?;
+    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)));
+    let list = DrawList::new(&world, &HumanView::default(), &radii);
+    let file = png(&stage.table, &list, args.size)?;
+    write_whole(&args.out, &file)?;
+    let (width, height) = args.size;
+    let (balls, bytes) = (list.balls.len(), file.len());
+    if args.json {
+        let summary = Summary { out: &args.out, width, height, time_s: args.at, balls, bytes };
+        super::json_line(out, &serde_json::json!({ "summary": summary }))?;
+    } else {
+        let path = args.out.display();
+        writeln!(out, "{path}: {width} x {height} pixels, {balls} balls, at {} s", args.at)?;
+    }
+    Ok(Status::Success)
+}
+
+/// Says that there is nothing to render with.
+#[cfg(not(feature = "renderer"))]
+pub fn run(_: &RenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
+    let fix = "build it with the feature `renderer`, which is there by default";
+    Err(Error::input("render", "this build draws no pictures", fix))
 }

@@ -178,19 +178,19 @@ fn scenarios(args: &RulesArgs, file: &Path, out: &mut dyn Write) -> Result<Statu
     }
     let texts = Texts::new(Language::English);
     let bar = progress(scenarios.len() as u64, "scenarios");
-    let (mut pass, mut fail) = (0, 0);
+    let (mut pass, mut fail, mut unsupported) = (0, 0, 0);
     for scenario in &scenarios {
         let result = run_scenario(scenario);
-        let passed = result.status == ScenarioStatus::Pass;
-        if passed {
-            pass += 1;
-        } else {
-            fail += 1;
-        }
+        let (count, word) = match result.status {
+            ScenarioStatus::Pass => (&mut pass, "pass"),
+            ScenarioStatus::Fail => (&mut fail, "FAIL"),
+            ScenarioStatus::Unsupported => (&mut unsupported, "unsupported"),
+        };
+        *count += 1;
         if args.json {
             json_line(out, &result)?;
         } else {
-            writeln!(out, "{}  {}", if passed { "pass" } else { "FAIL" }, result.id)?;
+            writeln!(out, "{word}  {}", result.id)?;
             for difference in &result.differences {
                 writeln!(out, "      {}: {}", difference.key, difference.problem)?;
             }
@@ -203,9 +203,13 @@ fn scenarios(args: &RulesArgs, file: &Path, out: &mut dyn Write) -> Result<Statu
     }
     bar.finish_and_clear();
     if args.json {
-        json_line(out, &json!({ "summary": { "pass": pass, "fail": fail } }))?;
+        json_line(
+            out,
+            &json!({ "summary": { "pass": pass, "fail": fail,
+            "unsupported": unsupported } }),
+        )?;
     } else {
-        writeln!(out, "{pass} pass, {fail} fail")?;
+        writeln!(out, "{pass} pass, {fail} fail, {unsupported} unsupported")?;
     }
     Ok(if fail == 0 { Status::Success } else { Status::CheckFailed })
 }

@@ -77,6 +77,7 @@ pub struct FixedStep {
     rest_since: Option<u64>,
     settle_steps: u64,
     skips: bool,
+    rejects: bool,
     ledger: Ledger,
     work: Work,
     tracks: Option<Vec<Vec<Knot>>>,
@@ -140,6 +141,7 @@ impl FixedStep {
             rest_since: None,
             settle_steps: (tolerance::SETTLE_S / h).ceil() as u64,
             skips: true,
+            rejects: true,
             ledger: Ledger::default(),
             work: Work::default(),
             tracks: None,
@@ -166,6 +168,13 @@ impl FixedStep {
     /// Computes every step, even where nothing can happen; for tests that skipping changes nothing.
     pub fn without_skipping(mut self) -> Self {
         self.skips = false;
+        self
+    }
+
+    /// Tests every ball against every face and every other ball; for tests of what cells and boxes
+    /// save, and that they leave out nothing that matters.
+    pub fn without_broad_phase(mut self) -> Self {
+        self.rejects = false;
         self
     }
 

@@ -5,11 +5,19 @@
 
 pub mod ball_ball;
 pub mod ball_face;
+pub mod choice;
 pub mod cloth;
 pub mod cluster;
+pub mod cue_axis;
 pub mod cue_ball;
 pub mod cushion;
+pub mod han_2005;
+pub mod hertz;
+pub mod mathavan_2010;
+pub mod mathavan_2014;
+pub mod one_ball;
 pub mod paper_2009;
+pub mod speed_friction;
 
 use crate::ball::Ball;
 use glam::DVec3;

@@ -1,5 +1,8 @@
 //! The numbers of the contact laws.
 
+use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
+use super::laws::mathavan_2010;
+use super::laws::speed_friction::FrictionCurve;
 use super::{PhysicsSettings, Profile};
 use crate::mesh::Surface;
 
@@ -56,6 +59,14 @@ pub struct Parameters {
     /// Static friction over sliding friction; only `profile = "2009"` tells them apart (paper,
     /// section 2.4).
     pub static_over_sliding: f64,
+    /// What two balls do to each other.
+    pub ball_law: BallLaw,
+    /// How friction between balls falls with their slip, where the law asks for it.
+    pub ball_friction_curve: FrictionCurve,
+    /// What a cushion does to a ball.
+    pub cushion_law: CushionLaw,
+    /// What several contacts at one instant do.
+    pub multi_contact: MultiContact,
 }
 
 impl Parameters {
@@ -76,6 +87,10 @@ impl Parameters {
             cue_end_mass_kg: crate::cue::CUE_END_MASS_KG,
             cue_coupling_rad_s: 40.0,
             static_over_sliding: 1.0,
+            ball_law: BallLaw::default(),
+            ball_friction_curve: FrictionCurve::ALCIATORE,
+            cushion_law: CushionLaw::default(),
+            multi_contact: MultiContact::default(),
         }
     }
 
@@ -100,8 +115,15 @@ impl Parameters {
             Profile::Paper2009 => Self::paper_2009(),
         };
         parameters.gravity_m_s2 = settings.gravity_m_s2;
+        parameters.ball_law = settings.ball_law;
+        parameters.cushion_law = settings.cushion_law;
+        parameters.multi_contact = settings.multi_contact;
+        if settings.cushion_law == CushionLaw::Mathavan2010 {
+            parameters.cushion = mathavan_2010::CUSHION;
+        }
         if !settings.ball_friction {
             parameters.ball.friction = 0.0;
+            parameters.ball_friction_curve = FrictionCurve { a: 0.0, b: 0.0, c_s_m: 0.0 };
         }
         parameters
     }
@@ -141,6 +163,9 @@ impl Parameters {
         }
         let positive = "must be 0 or more";
         for (key, value) in [
+            ("ball friction a", self.ball_friction_curve.a),
+            ("ball friction b", self.ball_friction_curve.b),
+            ("ball friction c", self.ball_friction_curve.c_s_m),
             ("rolling resistance", self.rolling_resistance),
             ("spin deceleration", self.spin_deceleration_rad_s2),
             ("gravity_m_s2", self.gravity_m_s2),

@@ -1,5 +1,6 @@
 //! What a scene may choose about its physics.
 
+use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
 use serde::{Deserialize, Serialize};
 
 /// The section `[physics]` of a scene.
@@ -14,6 +15,12 @@ pub struct PhysicsSettings {
     pub integrator: Integrator,
     /// Contact laws and their parameters.
     pub profile: Profile,
+    /// What two balls do to each other.
+    pub ball_law: BallLaw,
+    /// What a cushion does to a ball.
+    pub cushion_law: CushionLaw,
+    /// What several contacts at one instant do.
+    pub multi_contact: MultiContact,
     /// Gravity, downwards [m/s²].
     pub gravity_m_s2: f64,
     /// Friction between balls; the paper switches it off to see what it does (section 5.4.3).
@@ -31,6 +38,9 @@ impl Default for PhysicsSettings {
             step_ms: 4.0,
             integrator: Integrator::EulerCromer,
             profile: Profile::Standard,
+            ball_law: BallLaw::default(),
+            cushion_law: CushionLaw::default(),
+            multi_contact: MultiContact::default(),
             gravity_m_s2: 9.81,
             ball_friction: true,
             contact_back_dating: true,

@@ -29,7 +29,8 @@ impl Language {
         }
     }
 
-    fn file(self) -> &'static str {
+    /// The sentences of this language, as TOML.
+    pub(crate) fn file(self) -> &'static str {
         match self {
             Language::English => include_str!("../../config/text/en.toml"),
             Language::German => include_str!("../../config/text/de.toml"),

@@ -3,7 +3,7 @@
 use super::reader::{Limits, Section, Source};
 use super::*;
 use crate::ball::{POOL_MASS_KG, POOL_RADIUS_M};
-use crate::physics::{Integrator, Profile, SolverKind};
+use crate::physics::{BallLaw, CushionLaw, Integrator, MultiContact, Profile, SolverKind};
 use glam::DQuat;
 use toml::de::DeTable;
 
@@ -108,6 +108,9 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         "step_ms",
         "integrator",
         "profile",
+        "ball_law",
+        "cushion_law",
+        "multi_contact",
         "gravity_m_s2",
         "ball_friction",
         "contact_back_dating",
@@ -123,6 +126,21 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
     ];
     let profiles: [(&[&str], Profile); 2] =
         [(&["standard"], Profile::Standard), (&["2009"], Profile::Paper2009)];
+    let ball_laws: [(&[&str], BallLaw); 3] = [
+        (&["coulomb"], BallLaw::Coulomb),
+        (&["speed-dependent"], BallLaw::SpeedDependent),
+        (&["mathavan-2014"], BallLaw::Mathavan2014),
+    ];
+    let cushion_laws: [(&[&str], CushionLaw); 3] = [
+        (&["combined"], CushionLaw::Combined),
+        (&["han-2005"], CushionLaw::Han2005),
+        (&["mathavan-2010"], CushionLaw::Mathavan2010),
+    ];
+    let rules: [(&[&str], MultiContact); 3] = [
+        (&["rounds"], MultiContact::Rounds),
+        (&["hertz"], MultiContact::Hertz),
+        (&["pairwise"], MultiContact::Pairwise),
+    ];
     Ok(PhysicsSettings {
         solver: section
             .choice("solver", &[
@@ -133,6 +151,9 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
         integrator: section.choice("integrator", &integrators)?.unwrap_or(default.integrator),
         profile: section.choice("profile", &profiles)?.unwrap_or(default.profile),
+        ball_law: section.choice("ball_law", &ball_laws)?.unwrap_or(default.ball_law),
+        cushion_law: section.choice("cushion_law", &cushion_laws)?.unwrap_or(default.cushion_law),
+        multi_contact: section.choice("multi_contact", &rules)?.unwrap_or(default.multi_contact),
         gravity_m_s2: section.number("gravity_m_s2", gravity)?.unwrap_or(default.gravity_m_s2),
         ball_friction: section.switch("ball_friction")?.unwrap_or(default.ball_friction),
         contact_back_dating: section

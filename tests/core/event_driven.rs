@@ -1,6 +1,6 @@
 //! The exact solver over many random shots: what must hold whatever happens.
 
-use crate::physics_scenes::{R, digest, on_bed, world};
+use crate::physics::scenes::{R, digest, on_bed, world};
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::events::FactSet;
@@ -33,7 +33,7 @@ pub fn random_shot(case: u64) -> Vec<(Ball, BallState)> {
     let speed = random.random_range(0.2..14.0);
     if case % 4 == 0 {
         let gap = [0.0, 1e-7, 1e-5, 1e-4][random.random_range(0..4)];
-        let mut balls = crate::physics_scenes::break_shot(gap);
+        let mut balls = crate::physics::scenes::break_shot(gap);
         let spin = vector(&mut random, 300.0);
         let aside = random.random_range(-0.2..0.2);
         balls[0] = on_bed(0, -0.635, aside, DVec3::new(speed, -0.5 * aside * speed, 0.0), spin);

@@ -13,11 +13,14 @@ mod event_manager;
 mod geometry;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
-mod physics_explore;
-/// Scenes that several physics tests share.
-mod physics_scenes;
+/// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.
+mod physics;
+/// The laws that a scene chooses.
+mod physics_laws;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+/// What a picture shows.
+mod renderer;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
@@ -28,3 +31,5 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// Cases with known answers, and catalogues of others.
+mod validation;

@@ -148,12 +148,14 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "step_s = 0.004\n",
         "4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, profile, \
-         gravity_m_s2, ball_friction, contact_back_dating, thread; did you mean step_ms?",
+         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, \
+         contact_back_dating, thread; did you mean step_ms?",
     );
     after_head(
         "gravity = 9.81\n",
         "4: physics.gravity = 9.81: physics has the keys solver, step_ms, integrator, profile, \
-         gravity_m_s2, ball_friction, contact_back_dating, thread; did you mean gravity_m_s2?",
+         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, \
+         contact_back_dating, thread; did you mean gravity_m_s2?",
     );
     after_head(
         "solver = \"event-driven\"\n",
@@ -174,6 +176,21 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "integrator = \"rk5\"\n",
         "4: physics.integrator = \"rk5\": this build knows \"euler-cromer\", \"verlet\", \
          \"rk4\"; did you mean \"rk4\"?",
+    );
+    after_head(
+        "ball_law = \"mathavan\"\n",
+        "4: physics.ball_law = \"mathavan\": this build knows \"coulomb\", \"speed-dependent\", \
+         \"mathavan-2014\"; write for example ball_law = \"coulomb\"",
+    );
+    after_head(
+        "cushion_law = \"stronge\"\n",
+        "4: physics.cushion_law = \"stronge\": this build knows \"combined\", \"han-2005\", \
+         \"mathavan-2010\"; write for example cushion_law = \"combined\"",
+    );
+    after_head(
+        "multi_contact = \"round\"\n",
+        "4: physics.multi_contact = \"round\": this build knows \"rounds\", \"hertz\", \
+         \"pairwise\"; did you mean \"rounds\"?",
     );
     after_head(
         "profile = 2009\n",

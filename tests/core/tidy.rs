@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
-const LAYERS: [&[&str]; 13] = [
+const LAYERS: [&[&str]; 14] = [
     &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped"],
     &["table", "rack"],
     &["physics"],
@@ -16,6 +16,8 @@ const LAYERS: [&[&str]; 13] = [
     &["event_manager", "tick", "replay"],
     &["rules"],
     &["ai"],
+    // Cases with known answers, run on the physics and the learner.
+    &["validation"],
     &["input"],
     &["renderer"],
     &["tally"],
@@ -26,7 +28,7 @@ const LAYERS: [&[&str]; 13] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 21] = [
+const ACTORS: [(&str, Option<&str>); 22] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -39,6 +41,7 @@ const ACTORS: [(&str, Option<&str>); 21] = [
     ("participant", Some("tick")),
     ("cli", None),
     ("cpu_time", None),
+    ("stopwatch", None),
     ("error", None),
     ("event_log", None),
     ("game", None),

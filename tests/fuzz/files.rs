@@ -2,8 +2,10 @@
 
 use super::generator::{cases, generator, seed, spoiled};
 use hapticbillard::mesh::{Surface, parse_obj};
+use hapticbillard::physics::SolverKind;
 use hapticbillard::scene::Scene;
 use hapticbillard::shipped;
+use hapticbillard::validation::{Catalogue, run};
 use rand::RngExt;
 
 /// What may be inserted anywhere: sections and keys in the wrong place.
@@ -80,5 +82,87 @@ fn spoiled_meshes_give_a_mesh_or_one_line() {
                 assert!(!line.contains(char::is_control) && line.len() < 2000, "{place}");
             }
         }
+    }
+}
+
+/// What may be inserted into a catalogue.
+const CATALOGUE_WORDS: [&str; 10] = [
+    "\"runs\": [{}, {}],",
+    "\"law\": \"clamp_2009\",",
+    "null",
+    "1e308",
+    "-1",
+    "[[[[[[",
+    "\"measured_",
+    "{\"interval\": true}",
+    "\"kind_of_run\": \"spring\",",
+    "\"e_ball\": \"x\",",
+];
+
+/// The shipped cases that need no solver and little time, one a line and key.
+fn small_cases() -> Vec<String> {
+    let shipped: serde_json::Value = serde_json::from_str(shipped::CASES).unwrap();
+    let solved = ["single_ball", "balls_free", "ball_mesh", "flight", "static", "table_shot"];
+    let cases = shipped["cases"].as_array().unwrap().iter().filter(|case| {
+        let kind = case["kind_of_run"].as_str().unwrap();
+        !solved.iter().any(|name| kind.starts_with(name))
+            && case["setup"].get("break_scene").is_none()
+    });
+    cases
+        .map(|case| {
+            let mut case = case.clone();
+            // Few runs: a spoiled file is as good with two as with thirty.
+            if let Some(runs) = case["setup"].get_mut("runs") {
+                runs.as_array_mut().unwrap().truncate(2);
+                for (_, expect) in case["expect"].as_object_mut().unwrap() {
+                    expect.as_array_mut().unwrap().truncate(2);
+                }
+            }
+            serde_json::to_string_pretty(&serde_json::json!({ "cases": [case] })).unwrap()
+        })
+        .collect()
+}
+
+#[test]
+fn spoiled_catalogues_give_outcomes_or_one_line() {
+    let texts = small_cases();
+    assert!(texts.len() > 30);
+    let (mut right, mut wrong, mut ended) = (0, 0, [0; 3]);
+    for case in 0..cases(4_000) {
+        let mut random = generator(case);
+        let text = &texts[random.random_range(0..texts.len())];
+        let text = spoiled(text, &CATALOGUE_WORDS, &mut random);
+        let place = format!("seed {}, case {case}", seed());
+        let outcomes = Catalogue::parse(&text).and_then(|catalogue| {
+            catalogue
+                .cases
+                .iter()
+                .map(|case| run(case, SolverKind::FixedStep))
+                .collect::<Result<Vec<_>, _>>()
+        });
+        match outcomes {
+            Ok(outcomes) => {
+                right += 1;
+                for outcome in outcomes {
+                    ended[outcome.status as usize] += 1;
+                    assert!(!outcome.error.is_some_and(f64::is_nan), "{place}");
+                    let shown = outcome.key.is_some() || outcome.reason.is_some();
+                    assert!(shown, "{place}: {outcome:?}");
+                }
+            }
+            Err(error) => {
+                wrong += 1;
+                let line = error.to_string();
+                assert!(!line.contains(char::is_control), "{place}: {line:?}");
+                assert!(line.len() < 2000, "{place}: {line:?}");
+            }
+        }
+    }
+    // The canary: all ends are reached.
+    if cases(4_000) >= 1000 {
+        assert!(
+            right > 50 && wrong > 50 && ended.iter().all(|n| *n > 0),
+            "{right} {wrong} {ended:?}"
+        );
     }
 }

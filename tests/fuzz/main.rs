@@ -7,5 +7,7 @@
 mod files;
 /// Seeds from the environment, and ways to spoil a text.
 mod generator;
+/// Recordings, read and replayed.
+mod recordings;
 /// Sequences of facts, possible and impossible, against the referee.
 mod rules;

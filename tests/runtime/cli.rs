@@ -5,7 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-fn program(arguments: &[&str]) -> Output {
+/// Runs the program with nothing on its standard input.
+pub fn program(arguments: &[&str]) -> Output {
     with_stdin(arguments, "")
 }
 
@@ -27,7 +28,8 @@ fn lines(bytes: &[u8]) -> Vec<Value> {
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
-fn text(bytes: &[u8]) -> &str {
+/// What it printed.
+pub fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
@@ -49,7 +51,8 @@ fn refused(arguments: &[&str], expected: &str) {
 
 #[test]
 fn every_command_teaches_with_an_example() {
-    let commands = ["play", "simulate", "match", "replay", "render", "scene", "scenes", "rules"];
+    let commands =
+        ["play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate"];
     for command in commands {
         let output = program(&[command, "--help"]);
         assert!(output.status.success(), "{command}");
@@ -109,8 +112,8 @@ fn a_wrong_scene_is_one_line_on_stderr() {
         &["scene", file],
         &format!(
             "{file}:4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, \
-             profile, gravity_m_s2, ball_friction, contact_back_dating, thread; did you mean \
-             step_ms?"
+             profile, ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, \
+             contact_back_dating, thread; did you mean step_ms?"
         ),
     );
     refused(
@@ -175,4 +178,54 @@ fn without_features_no_graphics_library_is_built() {
     for library in ["three-d", "winit", "egui", "khronos-egl", "cpal"] {
         assert!(!tree.lines().any(|line| line.starts_with(&format!("{library} "))), "{library}");
     }
+}
+
+#[test]
+fn validate_prints_a_line_a_case_and_exits_with_1_if_one_fails() {
+    let output = program(&["validate", "--only", "B05", "D04", "P07", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let printed = lines(&output.stdout);
+    assert_eq!(printed.len(), 4);
+    let ids: Vec<&str> = printed[..3].iter().map(|line| line["id"].as_str().unwrap()).collect();
+    assert_eq!(ids, ["B05", "D04", "P07"]);
+    assert_eq!(printed[0]["status"], "pass");
+    assert_eq!(printed[0]["key"], "throw_deg");
+    assert!(printed[0]["error"].as_f64().unwrap() <= printed[0]["limit"].as_f64().unwrap());
+    assert!(printed[0]["cpu_ms"].as_f64().unwrap() >= 0.0);
+    assert_eq!(printed[2]["status"], "unsupported");
+    let summary = &printed[3]["summary"];
+    assert_eq!([&summary["pass"], &summary["fail"], &summary["unsupported"]], [2, 0, 1]);
+
+    let file = folder("validate").join("wrong.json");
+    let wrong = r#"{"cases": [{"id": "W", "kind_of_run": "fixed_step_figures",
+        "setup": {"T_s": 0.004, "speed_m_s": 5}, "expect": {"travel_per_step_m": 0.03}}]}"#;
+    std::fs::write(&file, wrong).unwrap();
+    let output = program(&["validate", "--cases", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let shown = text(&output.stdout);
+    assert!(
+        shown.contains("FAIL") && shown.ends_with("0 pass, 1 fail, 0 unsupported\n"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn validate_refuses_what_is_no_catalogue_in_one_line() {
+    let file = folder("validate_bad").join("bad.json");
+    let name = file.to_str().unwrap();
+    std::fs::write(&file, "{\"cases\": [{\"id\": 3}]}").unwrap();
+    refused(
+        &["validate", "--cases", name],
+        &format!(
+            "{name}: cases[0]: has no id; write \"id\": \"A01\"; see the shipped catalogue for the \
+             format"
+        ),
+    );
+    refused(
+        &["validate", "--only", "Z99"],
+        "--only: there is no case 'Z99'; see `hapticbillard validate` for the ids",
+    );
+    let output = program(&["validate", "--solver", "banana"]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(text(&output.stderr).contains("fixed-step"), "{output:?}");
 }

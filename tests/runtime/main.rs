@@ -9,7 +9,15 @@ mod cli;
 mod files;
 /// Who stands in for whom.
 mod mocks;
+/// What enters from outside: pauses, wrong files.
+mod outside;
+/// Pictures without a window.
+#[cfg(feature = "renderer")]
+mod pictures;
 /// Threads and memory, counted from outside.
 mod resources;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// A whole game in a window.
+#[cfg(feature = "renderer")]
+mod whole_game;

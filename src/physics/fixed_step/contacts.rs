@@ -7,10 +7,12 @@ use crate::ball::BallPlace;
 use crate::events::{FactKind, TouchedBy};
 use crate::ids::BallId;
 use crate::mesh::Surface;
+use crate::physics::laws::choice;
 use crate::physics::laws::cluster::{self, Touch};
 use crate::physics::laws::cue_ball::{Cue, cue_contact};
-use crate::physics::laws::{Impact, Mover, ball_ball, ball_face, cushion};
-use crate::physics::{Contact as Law, tolerance};
+use crate::physics::laws::mathavan_2014::Bed;
+use crate::physics::laws::{Impact, Mover, ball_face, cushion};
+use crate::physics::{Contact as Law, MultiContact, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -82,13 +84,11 @@ impl FixedStep {
         for (a, b, normal) in &pairs {
             let (one, two) = (&movers[place(*a)], &movers[place(*b)]);
             let lasting = self.lasting(*a, Some(*b), *normal, tolerance::STICKY_M_S);
-            let law = if members.len() == 2 {
-                let approach =
-                    -(one.surface_velocity(*normal) - two.surface_velocity(-*normal)).dot(*normal);
-                self.law_at(self.parameters.ball, approach, lasting, *a)
-            } else {
-                self.law_at(self.parameters.ball, f64::INFINITY, lasting, *a)
-            };
+            let slip = one.surface_velocity(*normal) - two.surface_velocity(-*normal);
+            let approach = -slip.dot(*normal);
+            let law = self.parameters.ball_at((slip + *normal * approach).length());
+            let alone = members.len() == 2;
+            let law = self.law_at(law, if alone { approach } else { f64::INFINITY }, lasting, *a);
             let touch = Touch::new(place(*a), Some(place(*b)), *normal, law);
             touches.push(Touch { sticky_m_s: lasting, ..touch });
         }
@@ -110,16 +110,27 @@ impl FixedStep {
             // in, without restitution and, at this short a contact, without friction.
             let (a, b) = (0, 1);
             let (mut one, mut two) = (movers[a], movers[b]);
-            let Impact { impulse, loss_j, .. } = ball_ball::collide(
+            let law = Law { restitution: touch.restitution, friction: touch.friction };
+            let bed = |index: usize| {
+                let (_, support) = holding.iter().find(|(place, _)| *place == index)?;
+                let friction = self.parameters.surface(support.surface).friction;
+                Some(Bed { normal: support.normal, friction })
+            };
+            let (Impact { impulse, loss_j, .. }, cloth) = choice::pair(
                 &mut one,
                 &mut two,
                 touch.normal,
-                touch.restitution,
-                touch.friction,
+                [bed(a), bed(b)],
+                law,
+                &self.parameters,
             );
             (movers[a], movers[b]) = (one, two);
             touch.impulse = impulse;
             touch.loss_j = loss_j;
+            for impact in cloth {
+                self.ledger.cloth_j += impact.loss_j;
+                self.ledger.momentum.table += impact.impulse;
+            }
             for (index, support) in &holding {
                 self.hold_up(&mut movers[*index], support);
             }
@@ -130,7 +141,10 @@ impl FixedStep {
                 carries: true,
                 ..Touch::new(*index, None, support.normal, smooth)
             }));
-            cluster::resolve(&mut movers, &mut touches);
+            let mut gaps: SmallVec<[f64; 32]> =
+                pairs.iter().map(|(a, b, _)| self.gap(*a, *b, tau).max(0.0)).collect();
+            gaps.resize(touches.len(), 0.0);
+            choice::several(&mut movers, &mut touches, &gaps, &self.parameters);
             for touch in &touches[balls..] {
                 self.ledger.face_j += touch.loss_j;
                 self.ledger.momentum.table += touch.impulse;
@@ -185,6 +199,10 @@ impl FixedStep {
     /// The partners of a contact, and from them outwards all balls that nearly touch.
     fn cluster_of(&mut self, a: usize, b: usize, tau: Seconds) -> SmallVec<[usize; 16]> {
         let mut members: SmallVec<[usize; 16]> = SmallVec::from_slice(&[a, b]);
+        if self.parameters.multi_contact == MultiContact::Pairwise {
+            members.sort_unstable();
+            return members;
+        }
         let mut next = 0;
         while next < members.len() {
             let member = members[next];
@@ -255,7 +273,11 @@ impl FixedStep {
             _ => tolerance::LANDING_M_S,
         };
         let lasting = self.lasting(index, None, normal, least);
-        let law = self.law_at(self.parameters.surface(surface), approach, lasting, index);
+        let law = match surface {
+            Surface::Cushion(_) => self.parameters.cushion_at(approach),
+            _ => self.parameters.surface(surface),
+        };
+        let law = self.law_at(law, approach, lasting, index);
 
         // Other surfaces at this moment: what carries the ball, and what it meets as well.
         let position = self.bodies[index].path.at(tau);
@@ -275,7 +297,17 @@ impl FixedStep {
             loss_j += impact.loss_j;
         } else if let ([], [support]) = (&met[..], &held[..]) {
             let cloth = self.parameters.surface(support.surface);
-            let (own, bed) = cushion::bounce(&mut mover, normal, support.normal, law, cloth);
+            let (own, bed) = match surface {
+                Surface::Cushion(_) => choice::cushion_and_bed(
+                    &mut mover,
+                    normal,
+                    support.normal,
+                    law,
+                    cloth,
+                    &self.parameters,
+                ),
+                _ => cushion::bounce(&mut mover, normal, support.normal, law, cloth),
+            };
             self.ledger.momentum.table += own.impulse + bed.impulse;
             self.ledger.cloth_j += bed.loss_j;
             loss_j += own.loss_j;
@@ -283,7 +315,10 @@ impl FixedStep {
             let mut touches: SmallVec<[Touch; 6]> = SmallVec::new();
             touches.push(Touch::new(0, None, normal, law));
             for (normal, surface) in &met {
-                let law = self.parameters.surface(*surface);
+                let law = match surface {
+                    Surface::Cushion(_) => self.parameters.cushion_at(-mover.velocity.dot(*normal)),
+                    _ => self.parameters.surface(*surface),
+                };
                 let law = self.law_at(law, f64::INFINITY, lasting, index);
                 let touch = Touch::new(0, None, *normal, law);
                 touches.push(Touch { sticky_m_s: lasting, ..touch });
@@ -368,11 +403,13 @@ impl FixedStep {
         let position = self.bodies[index].path.at(tau);
         let normal = (position - tip).normalize_or(direction);
         let mut mover = self.bodies[index].mover();
-        let before = (mover.velocity, mover.kinetic_j());
-        let approach = -(mover.surface_velocity(normal) - velocity).dot(normal);
+        let before = mover.surface_velocity(normal);
+        let approach = -(before - velocity).dot(normal);
         let mut cue = Cue::new(&self.parameters, velocity, direction);
         let impact = cue_contact(&mut mover, &mut cue, normal);
-        self.ledger.cue_j += mover.kinetic_j() - before.1;
+        // Work of the impulse on the ball, whose surface moves with the mean of both velocities.
+        let after = mover.surface_velocity(normal);
+        self.ledger.cue_j += 0.5 * impact.impulse.dot(before + after);
         self.ledger.momentum.cue += impact.impulse;
         self.work.contacts += 1;
 

@@ -143,7 +143,8 @@ impl FixedStep {
             }
         }
         if !ground.faces.is_empty() {
-            let bounds = Bounds::swept(position, position, reach);
+            let near = Bounds::swept(position, position, reach);
+            let bounds = if self.rejects { near } else { Bounds::EVERYTHING };
             ground.faces_near(&bounds, &mut self.scratch.seen_faces, &mut faces);
             // The patches that carried the ball before come first: once its foot is found inside
             // one face of a flat patch, the others of that patch are farther away.

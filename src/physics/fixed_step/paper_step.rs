@@ -121,17 +121,20 @@ impl FixedStep {
         let (dv, dw) = kick(&p, change_a.abs(), normal, across);
         let (ev, ew) = kick(&q, change_b.abs(), -normal, -across);
 
-        let before_j = p.kinetic_j() + q.kinetic_j();
-        let mut moved = [p, q];
-        moved[0].velocity += normal * change_a + dv;
-        moved[0].angular_velocity += dw;
-        moved[1].velocity += normal * change_b + ev;
-        moved[1].angular_velocity += ew;
-        self.ledger.ball_ball_j += before_j - moved[0].kinetic_j() - moved[1].kinetic_j();
-        for (index, old, new) in [(a, p, moved[0]), (b, q, moved[1])] {
-            let mass = self.bodies[index].ball.mass_kg;
-            // The clamp gives and takes unequal momentum; it is booked with the table's.
-            self.ledger.momentum.table += (new.velocity - old.velocity) * mass;
+        let kicks = [
+            (a, p, normal, normal * change_a + dv, dw),
+            (b, q, -normal, normal * change_b + ev, ew),
+        ];
+        for (index, old, side, velocity, spin) in kicks {
+            let mut new = old;
+            new.velocity += velocity;
+            new.angular_velocity += spin;
+            if old.inverse_mass > 0.0 {
+                // The clamp gives and takes unequal momentum; it is booked with the table's.
+                let impulse = velocity / old.inverse_mass;
+                self.ledger.ball_ball_j -= work_j(impulse, &old, &new, side);
+                self.ledger.momentum.table += impulse;
+            }
             self.paper_move(start, index, touched, depth, normal, &new, restitution);
         }
         self.work.contacts += 1;
@@ -201,8 +204,7 @@ impl FixedStep {
         }
 
         let Law { restitution, friction } = self.parameters.surface(surface);
-        let before_j = mover.kinetic_j();
-        let old = mover.velocity;
+        let (mut loss_j, mut given) = (0.0, DVec3::ZERO);
         if approach > 0.0 && mover.inverse_mass > 0.0 {
             let slip = mover.surface_velocity(normal);
             let across = slip - normal * slip.dot(normal);
@@ -211,8 +213,11 @@ impl FixedStep {
             let force = (weight + collision) / mover.inverse_mass;
             let friction = self.paper_friction(friction);
             let (dv, dw) = paper_2009::friction(&mover, normal, across, force, friction, h);
-            mover.velocity += normal * ((1.0 + restitution) * approach) + dv;
+            let (old, kick) = (mover, normal * ((1.0 + restitution) * approach) + dv);
+            mover.velocity += kick;
             mover.angular_velocity += dw;
+            given += kick / mover.inverse_mass;
+            loss_j -= work_j(given, &old, &mover, normal);
 
             // Rolling resistance and spin decay of the standard laws, or nothing would ever stop.
             // They live on the collision's part alone, whose mean is the ball's weight.
@@ -228,16 +233,18 @@ impl FixedStep {
             mover.velocity -= up;
             let impulse = collision * h / mover.inverse_mass;
             let carried = f64::from(rolls && normal.z > 0.5);
-            crate::physics::laws::cloth::resist(&mut mover, normal, impulse, carried, &law, h);
+            let level = mover.velocity;
+            loss_j +=
+                crate::physics::laws::cloth::resist(&mut mover, normal, impulse, carried, &law, h);
+            given += (mover.velocity - level) / mover.inverse_mass;
             mover.velocity += up;
         }
-        let loss_j = before_j - mover.kinetic_j();
         match surface {
             Surface::Cushion(_) => self.ledger.cushion_j += loss_j,
             _ => self.ledger.cloth_j += loss_j,
         }
         let body = &mut self.bodies[index];
-        self.ledger.momentum.table += (mover.velocity - old) * body.ball.mass_kg;
+        self.ledger.momentum.table += given;
 
         // p' = d p above the surface (section 2.2.1).
         let end = position + normal * ((1.0 + restitution) * depth);
@@ -291,4 +298,9 @@ impl FixedStep {
         }
         best
     }
+}
+
+/// Work of an impulse on a ball's surface [J]: J · (u + u′)/2.
+fn work_j(impulse: DVec3, before: &Mover, after: &Mover, normal: DVec3) -> f64 {
+    0.5 * impulse.dot(before.surface_velocity(normal) + after.surface_velocity(normal))
 }

@@ -63,9 +63,16 @@ impl FixedStep {
         } else {
             SmallVec::new()
         };
-        let loss_j = self.carry(&mut mover, &carriers);
+        let Impact { impulse, mut loss_j, .. } = self.carry(&mut mover, &carriers);
+        if let [support] = &carriers[..] {
+            // What the step's forces press in comes from no height and is no loss.
+            let pressed = force_kick.dot(support.normal).min(0.0);
+            let pressed_j = 0.5 * mass * pressed * pressed;
+            loss_j -= pressed_j;
+            self.ledger.integration_j -= pressed_j;
+        }
         self.ledger.cloth_j += loss_j;
-        self.ledger.momentum.table += (mover.velocity - free.velocity) * mass;
+        self.ledger.momentum.table += impulse;
 
         // The path. A force that acts during the whole step moves the ball by half of its kick; in
         // Euler-Cromer by all of it.
@@ -101,14 +108,13 @@ impl FixedStep {
             .collect()
     }
 
-    /// Friction and normal impulses of all that carries a ball; returns the energy lost [J].
-    fn carry(&self, mover: &mut Mover, carriers: &[Support]) -> f64 {
+    /// Friction and normal impulses of all that carries a ball.
+    fn carry(&self, mover: &mut Mover, carriers: &[Support]) -> Impact {
         match carriers {
-            [] => 0.0,
+            [] => Impact::default(),
             [support] => {
                 let law = self.carrying(support);
-                let Impact { loss_j, .. } = cloth::carry(mover, support.normal, &law, self.h);
-                loss_j
+                cloth::carry(mover, support.normal, &law, self.h)
             }
             several => {
                 let mut touches: SmallVec<[Touch; 4]> = several
@@ -120,6 +126,7 @@ impl FixedStep {
                     .collect();
                 cluster::resolve(core::slice::from_mut(mover), &mut touches);
                 let mut loss_j: f64 = touches.iter().map(|touch| touch.loss_j).sum();
+                let mut impulse: DVec3 = touches.iter().map(|touch| touch.impulse).sum();
 
                 // The one that carries most decides how the ball rolls.
                 let pressed = |touch: &Touch| touch.impulse.dot(touch.normal);
@@ -131,11 +138,14 @@ impl FixedStep {
                     let slip = slip - touch.normal * slip.dot(touch.normal);
                     let rolls = slip.length() <= tolerance::ROLLING_SLIP_M_S;
                     let law = self.carrying(support);
-                    let (normal, impulse) = (touch.normal, pressed(touch));
-                    let rolled = f64::from(rolls);
-                    loss_j += cloth::resist(mover, normal, impulse, rolled, &law, self.h);
+                    let (normal, normal_impulse) = (touch.normal, pressed(touch));
+                    let (rolled, slid) = (f64::from(rolls), mover.velocity);
+                    loss_j += cloth::resist(mover, normal, normal_impulse, rolled, &law, self.h);
+                    if mover.inverse_mass > 0.0 {
+                        impulse += (mover.velocity - slid) / mover.inverse_mass;
+                    }
                 }
-                loss_j
+                Impact { impulse, sticks: false, loss_j }
             }
         }
     }

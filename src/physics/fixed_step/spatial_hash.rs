@@ -19,6 +19,9 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// All of space.
+    pub const EVERYTHING: Bounds = Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY };
+
     /// Around a ball of radius `reach_m` that moves straight from `from` to `to`.
     pub fn swept(from: DVec3, to: DVec3, reach_m: f64) -> Self {
         let reach = DVec3::splat(reach_m);

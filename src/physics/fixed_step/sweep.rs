@@ -156,7 +156,11 @@ impl FixedStep {
         let h = self.h;
         let body = &mut self.bodies[index];
         let reach = body.ball.radius_m + tolerance::CLUSTER_M;
-        body.bounds = Bounds::swept(body.path.position, body.path.at(h), reach);
+        body.bounds = if self.rejects {
+            Bounds::swept(body.path.position, body.path.at(h), reach)
+        } else {
+            Bounds::EVERYTHING
+        };
         self.scratch.balls.insert(index as u32, &body.bounds, |_| true);
     }
 

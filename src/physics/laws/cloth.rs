@@ -48,6 +48,9 @@ pub fn slide(
     (velocity + change, angular_velocity - DVec3::Z.cross(change) / (inertia_factor * radius_m))
 }
 
+/// Slip over the speeds that it is the difference of, below which it is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// What a surface does to a ball that it carries, over one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carrying {
@@ -80,21 +83,25 @@ pub fn carry(ball: &mut Mover, normal: DVec3, law: &Carrying, h: Seconds) -> Imp
     let slip = tangential.length();
     let stopping = slip / ball.tangential_compliance();
     let available = law.friction * normal_impulse;
-    let sticks = stopping <= available;
+    // A slip of rounding is rolling, on cloth without friction too.
+    let skin = ball.velocity.length() + ball.radius_m * ball.angular_velocity.length();
+    let sticks = stopping <= available || slip <= ROUNDING * skin;
     let size = if sticks { stopping } else { available };
     let friction = if slip > 0.0 { tangential * (-size / slip) } else { DVec3::ZERO };
     if slip > 0.0 {
         ball.push(normal, friction);
     }
-    let impulse = friction + normal * normal_impulse;
+    let mut impulse = friction + normal * normal_impulse;
     let mut loss_j = -0.5 * impulse.dot(before + ball.surface_velocity(normal));
 
     let rolled = match (sticks, available > 0.0) {
-        (true, true) => 1.0 - stopping / available,
+        (true, true) => (1.0 - stopping / available).max(0.0),
         (true, false) => 1.0,
         (false, _) => 0.0,
     };
+    let slid = ball.velocity;
     loss_j += resist(ball, normal, normal_impulse, rolled, law, h);
+    impulse += (ball.velocity - slid) / ball.inverse_mass;
     Impact { impulse, sticks, loss_j }
 }
 
@@ -111,7 +118,7 @@ pub fn resist(
     if normal_impulse <= 0.0 {
         return 0.0;
     }
-    let kinetic = ball.kinetic_j();
+    let before = *ball;
 
     let lost = law.rolling_resistance * normal_impulse * ball.inverse_mass * rolled;
     let off = normal * ball.velocity.dot(normal);
@@ -137,7 +144,14 @@ pub fn resist(
     if spin == 0.0 && ball.velocity == DVec3::ZERO && rolled > 0.0 {
         ball.angular_velocity = DVec3::ZERO;
     }
-    kinetic - ball.kinetic_j()
+    // Work of the resistance: impulse and angular impulse, each times the mean of its velocity.
+    let part = |change: DVec3, sum: DVec3, inverse: f64| {
+        if inverse > 0.0 { change.dot(sum) / inverse } else { 0.0 }
+    };
+    let (v, v_after) = (before.velocity, ball.velocity);
+    let (w, w_after) = (before.angular_velocity, ball.angular_velocity);
+    -0.5 * (part(v_after - v, v_after + v, ball.inverse_mass)
+        + part(w_after - w, w_after + w, ball.inverse_inertia))
 }
 
 #[cfg(test)]
@@ -165,6 +179,17 @@ mod tests {
         carry(&mut ball, DVec3::Z, &CLOTH, h);
         assert_eq!(ball.velocity, DVec3::ZERO);
         assert_eq!(ball.angular_velocity, DVec3::ZERO);
+    }
+
+    #[test]
+    fn a_ball_that_rolls_up_to_rounding_is_slowed_without_sliding_friction_too() {
+        let (h, speed) = (0.004, 1.0);
+        let law = Carrying { friction: 0.0, ..CLOTH };
+        let velocity = DVec3::new(speed, 0.0, -9.81 * h);
+        let spin = DVec3::Y * (speed / POOL_RADIUS_M * (1.0 + 4.0 * f64::EPSILON));
+        let mut ball = Mover::new(&Ball::pool(BallId(1)), velocity, spin);
+        carry(&mut ball, DVec3::Z, &law, h);
+        assert!((ball.velocity.x - (speed - 0.01 * 9.81 * h)).abs() < 1e-14);
     }
 
     #[test]

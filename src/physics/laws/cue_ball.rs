@@ -120,7 +120,8 @@ mod tests {
             let (ball, impact, _) = stroke(offset, 0.009);
             assert!(impact.sticks && 0.0 < impact.loss_j);
             assert!((ball.velocity.length() - speed).abs() < 0.02, "{offset}");
-            let angle = libm::atan2(-ball.velocity.y, ball.velocity.x) * 180.0 / 3.141_592_65;
+            let angle =
+                libm::atan2(-ball.velocity.y, ball.velocity.x) * 180.0 / core::f64::consts::PI;
             assert!((angle.abs() - squirt).abs() < 0.15, "{offset}: {angle}");
         }
     }

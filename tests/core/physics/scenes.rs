@@ -2,11 +2,13 @@
 
 use glam::{DQuat, DVec3};
 use hapticbillard::ball::{Ball, BallPlace, BallState, Motion};
-use hapticbillard::events::{Fact, FactSet, Topics};
+use hapticbillard::events::{Fact, FactSet};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::BallId;
-use hapticbillard::physics::{Parameters, PhysicsSettings, Simulation};
+use hapticbillard::physics::fixed_step::FixedStep;
+use hapticbillard::physics::{Parameters, PhysicsSettings, Profile, Simulation, Solver};
 use hapticbillard::table::Table;
+use std::sync::OnceLock;
 
 pub const R: f64 = 0.028575;
 
@@ -70,9 +72,6 @@ pub fn digest(simulation: &Simulation) -> Digest {
     hash.finish()
 }
 
-/// No fact stops.
-pub const NONE: FactSet = Topics::NONE;
-
 /// The break of the paper's figures: a tight triangle, the cue ball at 8 m/s without spin.
 pub fn break_shot(gap: f64) -> Vec<(Ball, BallState)> {
     let mut balls = vec![on_bed(0, -0.635, 0.0, DVec3::X * 8.0, DVec3::ZERO)];
@@ -87,4 +86,73 @@ pub fn break_shot(gap: f64) -> Vec<(Ball, BallState)> {
         }
     }
     balls
+}
+
+/// The stepper with cells of a size of its own.
+pub fn stepper(table: &Table, balls: &[(Ball, BallState)], cell_m: f64) -> FixedStep {
+    let settings = PhysicsSettings::default();
+    let parameters = Parameters::of(&settings);
+    FixedStep::new(table, balls.to_vec(), &settings, parameters, cell_m).unwrap()
+}
+
+/// The hash of a solver.
+pub fn solver_digest(solver: &impl Solver) -> Digest {
+    let mut hash = StateHash::new();
+    solver.hash(&mut hash);
+    hash.finish()
+}
+
+/// The 9-foot table; made once.
+pub fn pool() -> &'static Table {
+    static TABLE: OnceLock<Table> = OnceLock::new();
+    TABLE.get_or_init(|| Table::preset("pool-9ft").unwrap())
+}
+
+/// Settings of the 2009 profile.
+pub fn of_2009() -> PhysicsSettings {
+    PhysicsSettings { profile: Profile::Paper2009, ..PhysicsSettings::default() }
+}
+
+/// Whether heavy sweeps are asked for.
+pub fn slow() -> bool {
+    std::env::var_os("SLOW_TESTS").is_some()
+}
+
+/// The middle of some values.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Seeded numbers, evenly spread (SplitMix64).
+pub struct Numbers(pub u64);
+
+impl Numbers {
+    /// The next number between two others.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A vector with components up to `size`.
+    pub fn vector(&mut self, size: f64) -> DVec3 {
+        DVec3::new(self.between(-size, size), self.between(-size, size), self.between(-size, size))
+    }
+}
+
+/// Balls in the quarters of the table, moving and spinning at random.
+pub fn random_balls(seed: u64) -> Vec<(Ball, BallState)> {
+    let mut numbers = Numbers(seed);
+    let quarters = [(-0.6, -0.3), (-0.6, 0.3), (0.6, -0.3), (0.6, 0.3)];
+    (0..4)
+        .zip(quarters)
+        .map(|(id, (x, y))| {
+            let (dx, dy) = (numbers.between(-0.4, 0.4), numbers.between(-0.2, 0.2));
+            let velocity = numbers.vector(4.0).with_z(0.0);
+            on_bed(id, x + dx, y + dy, velocity, numbers.vector(100.0))
+        })
+        .collect()
 }

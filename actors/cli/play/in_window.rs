@@ -1,0 +1,158 @@
+//! A game in a window: the ports of both joined.
+
+use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
+use hapticbillard::ids::BallId;
+use hapticbillard::input::{Human, HumanView, RawInput};
+use hapticbillard::renderer::Radii;
+use hapticbillard::replay::{RecordedInput, Recording};
+use hapticbillard::rules::Language;
+use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
+use hapticbillard::units::Tick;
+use hapticbillard_actors::conductor::RunError;
+use hapticbillard_actors::error::Error;
+use hapticbillard_actors::game::{LIMIT, Stage};
+use hapticbillard_actors::input::WindowHand;
+use hapticbillard_actors::pacer::{Tempo, describe};
+use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
+use hapticbillard_actors::runtime::{self, InputPort, Setup};
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Whether there is a display to open a window on.
+pub fn has_display() -> bool {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    // Other systems always have one.
+    !cfg!(all(unix, not(target_os = "macos"))) || is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
+}
+
+/// The language of the player's system.
+fn language() -> Language {
+    let chosen = ["LC_ALL", "LC_MESSAGES", "LANG"]
+        .iter()
+        .find_map(|name| std::env::var(name).ok().filter(|value| !value.is_empty()));
+    match chosen {
+        Some(locale) if locale.starts_with("de") => Language::German,
+        _ => Language::English,
+    }
+}
+
+/// Plays in a window, or says why there is none.
+pub fn play_in_window(
+    args: &PlayArgs,
+    stage: &Stage,
+    out: &mut dyn Write,
+) -> Result<Result<Status, String>, Error> {
+    if !has_display() {
+        return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
+    }
+    let record = recording(args);
+    let finished = match shown(stage, None, record.clone(), args.speed)? {
+        Ok(finished) => finished?,
+        Err(NoWindow(why)) => return Ok(Err(format!("no window ({why})"))),
+    };
+    tidy_up(args, record.as_ref());
+    writeln!(out, "{}", describe(finished.end))?;
+    if let Some(path) = &record {
+        writeln!(out, "recorded: {}", path.display())?;
+    }
+    Ok(Ok(Status::Success))
+}
+
+/// Plays a recording back in a window.
+pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
+    match shown(stage, Some(recording), None, 1.0)? {
+        Ok(finished) => finished.map(|_| Status::Success).map_err(Error::from),
+        Err(NoWindow(why)) => {
+            Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
+        }
+    }
+}
+
+type Shown = Result<Result<Finished, RunError>, NoWindow>;
+
+fn shown(
+    stage: &Stage,
+    replay: Option<Arc<Recording>>,
+    record: Option<PathBuf>,
+    speed: f64,
+) -> Result<Shown, Error> {
+    let mut cast = stage.cast()?;
+    let balls = stage.scene.build_balls(&stage.table)?;
+    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)));
+    let renderer = stage.scene.renderer;
+    let stop = stop_at_interrupt();
+    let setup = WindowSetup {
+        title: format!("HapticBillard: {}", stage.scene.about.name),
+        size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
+        fullscreen: renderer.is_some_and(|section| section.fullscreen),
+        table: stage.table.clone(),
+        first: Arc::new(cast.simulation.snapshot(0.0)),
+        names: cast.names.clone(),
+        speed,
+        language: language(),
+        stop: stop.clone(),
+        radii: radii.clone(),
+    };
+    let hand = cast.human.take().filter(|_| replay.is_none());
+    let table = stage.table.clone();
+    let record = record.map(|path| (path, stage.header()));
+    let physics_thread = stage.scene.physics.thread;
+    let game = move |ports: Ports| {
+        let Ports { raw, view, world, sink } = ports;
+        let input = match hand {
+            Some(hand) => {
+                let hand = hand.with_ball_radius(radii.of(BallId::CUE));
+                InputPort::Hand(Box::new(WindowHand::new(hand, raw, view)))
+            }
+            None => {
+                let recorded = replay.map(RecordedInput);
+                // Nobody's hand: it looks round, and stops time.
+                let eye = Human::new(Vec::new(), table);
+                let seen = Vec::new();
+                InputPort::StandIn(Box::new(Spectator { recorded, eye, raw, view, seen }))
+            }
+        };
+        let setup = Setup {
+            pace: Pace::EveryTick,
+            tempo: Tempo::RealTime(speed),
+            input,
+            record,
+            sinks: vec![sink],
+            world: Some(world),
+            physics_thread,
+            workers: 2,
+            stop,
+            ..Setup::headless(LIMIT)
+        };
+        runtime::run(cast, setup)
+    };
+    Ok(show(setup, game))
+}
+
+/// Somebody who only watches: a recording or nobody plays, the camera is the spectator's.
+struct Spectator {
+    recorded: Option<RecordedInput>,
+    eye: Human,
+    raw: flume::Receiver<RawInput>,
+    view: triple_buffer::Input<HumanView>,
+    seen: Vec<RawInput>,
+}
+
+impl FrameSource for Spectator {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        self.seen.clear();
+        self.seen.extend(self.raw.try_iter());
+        let own = self.eye.inflow(tick, &self.seen);
+        self.view.write(self.eye.view());
+        let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
+        let recorded = recorded.unwrap_or_default();
+        // What the spectator's hand would publish is not part of the game.
+        Inflow {
+            frame: recorded.frame,
+            next: own.next,
+            paused: own.paused,
+            quit: own.quit || recorded.quit,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The renderer: a window on the main thread, and pictures without one.
+//!
+//! Graphics belong to one thread, so nothing here is a message: events come in through a channel
+//! ([`crate::event_manager::Sink`]), the world and the hand's view through slots, and what devices
+//! say goes out through a channel. What is drawn is decided by the core, `hapticbillard::renderer`.
+
+mod hud;
+
+mod materials;
+
+mod offscreen;
+
+mod outbox;
+
+mod pointer;
+
+mod stage;
+
+mod textures;
+
+mod window;
+
+pub use offscreen::pixels;
+pub use textures::number_layer;
+pub use window::{NoWindow, Ports, WindowSetup, show};
+
+use hapticbillard::renderer::DrawList;
+use hapticbillard::table::Table;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+/// Why there is no picture, and what to do about it; one line.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct NoPicture(pub String);
+
+/// A picture as a PNG file.
+///
+/// # Errors
+/// [`NoPicture`] if this machine has no OpenGL.
+pub fn png(table: &Table, list: &DrawList, size: (u32, u32)) -> Result<Vec<u8>, NoPicture> {
+    let rows = pixels(table, list, size)?;
+    let bytes: Vec<u8> = rows.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+    let mut file = Vec::new();
+    PngEncoder::new(&mut file)
+        .write_image(&bytes, size.0, size.1, ExtendedColorType::Rgb8)
+        .map_err(|error| NoPicture(format!("cannot write a PNG picture: {error}")))?;
+    Ok(file)
+}

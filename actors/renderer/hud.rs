@@ -1,0 +1,217 @@
+//! The head-up display in pixels: what the core wrote, laid out for the size of the window.
+
+use hapticbillard::ids::BallId;
+use hapticbillard::renderer::{Gauge, Hud, Remaining, SeatPanel, TipDial, ball_look};
+use three_d::egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2,
+};
+
+const PANEL: Color32 = Color32::from_rgba_premultiplied(8, 9, 11, 190);
+const TEXT: Color32 = Color32::from_rgb(236, 234, 226);
+const FAINT: Color32 = Color32::from_rgb(176, 174, 166);
+const ACTIVE: Color32 = Color32::from_rgb(255, 205, 96);
+const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
+
+/// Draws the display over a window of the painter's size.
+pub fn paint(painter: &Painter, hud: &Hud) {
+    let screen = painter.clip_rect();
+    // Everything grows with the window; readable at 1280 x 720 and below.
+    let unit = (screen.height() / 720.0).clamp(0.6, 3.0);
+    let pen = Pen { painter, screen, unit };
+    pen.seats(&hud.seats);
+    pen.message(hud);
+    pen.hint(hud);
+    if let Some(tip) = &hud.tip {
+        pen.tip(tip, hud.elevation.as_deref());
+    }
+    if let Some(gauge) = &hud.strength {
+        pen.strength(gauge);
+    }
+    if let Some((title, rows)) = &hud.help {
+        pen.help(title, rows);
+    } else if let Some((title, hint)) = &hud.banner {
+        pen.banner(title, hint);
+    }
+}
+
+struct Pen<'a> {
+    painter: &'a Painter,
+    screen: Rect,
+    unit: f32,
+}
+
+impl Pen<'_> {
+    fn font(&self, size: f32) -> FontId {
+        FontId::proportional(size * self.unit)
+    }
+
+    fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, colour: Color32) -> Rect {
+        self.painter.text(at, anchor, text, self.font(size), colour)
+    }
+
+    fn panel(&self, rect: Rect) {
+        self.painter.rect_filled(rect, 7.0 * self.unit, PANEL);
+    }
+
+    fn seats(&self, seats: &[SeatPanel]) {
+        let (width, height) = (286.0 * self.unit, 70.0 * self.unit);
+        let margin = 14.0 * self.unit;
+        for (index, seat) in seats.iter().enumerate() {
+            let x = if index == 0 {
+                self.screen.left() + margin
+            } else {
+                self.screen.right() - margin - width
+            };
+            let rect =
+                Rect::from_min_size(pos2(x, self.screen.top() + margin), vec2(width, height));
+            self.panel(rect);
+            if seat.is_at_table {
+                let stroke = Stroke::new(2.0 * self.unit, ACTIVE);
+                self.painter.rect_stroke(rect, 7.0 * self.unit, stroke, StrokeKind::Inside);
+            }
+            let inner = rect.shrink2(vec2(12.0, 9.0) * self.unit);
+            let colour = if seat.is_at_table { ACTIVE } else { TEXT };
+            self.text(inner.left_top(), Align2::LEFT_TOP, &seat.name, 20.0, colour);
+            self.text(inner.right_top(), Align2::RIGHT_TOP, &seat.plays, 16.0, FAINT);
+            if let Remaining::Balls(balls) = &seat.remaining {
+                let radius = 11.5 * self.unit;
+                for (i, ball) in balls.iter().enumerate() {
+                    let x = inner.left() + radius + i as f32 * 2.4 * radius;
+                    self.ball(pos2(x, inner.bottom() - radius + 2.0 * self.unit), radius, *ball);
+                }
+            }
+        }
+    }
+
+    /// A ball as a small disc.
+    fn ball(&self, middle: Pos2, radius: f32, ball: BallId) {
+        let look = ball_look(ball);
+        let colour = |[r, g, b]: [f32; 3]| {
+            Color32::from_rgb((r * 255.0) as u8, (g * 255.0) as u8, (b * 255.0) as u8)
+        };
+        let ivory = colour(ball_look(BallId::CUE).colour);
+        let base = if look.is_striped { ivory } else { colour(look.colour) };
+        self.painter.circle_filled(middle, radius, base);
+        if look.is_striped {
+            let band = Rect::from_center_size(middle, vec2(1.78 * radius, 1.02 * radius));
+            self.painter.rect_filled(band, 0.22 * radius, colour(look.colour));
+        }
+        self.painter.circle_stroke(middle, radius, Stroke::new(self.unit, Color32::from_gray(90)));
+        if let Some(number) = look.number {
+            self.painter.circle_filled(middle, 0.56 * radius, ivory);
+            let size = if number < 10 { 11.0 } else { 9.0 };
+            let text = number.to_string();
+            self.text(middle, Align2::CENTER_CENTER, &text, size, Color32::BLACK);
+        }
+    }
+
+    /// Lines of text under each other in a panel whose top middle is at `top`.
+    fn paragraph(&self, top: Pos2, width: f32, lines: &[(String, f32, Color32)]) {
+        let galleys: Vec<_> = lines
+            .iter()
+            .map(|(text, size, colour)| {
+                let galley = self.painter.layout(text.clone(), self.font(*size), *colour, width);
+                (galley, *colour)
+            })
+            .collect();
+        let widest = galleys.iter().map(|(galley, _)| galley.size().x).fold(0.0, f32::max);
+        let height: f32 = galleys.iter().map(|(galley, _)| galley.size().y).sum();
+        let pad = vec2(14.0, 8.0) * self.unit;
+        let size = vec2(widest, height) + 2.0 * pad;
+        self.panel(Rect::from_min_size(top - vec2(0.5 * size.x, 0.0), size));
+        let mut y = top.y + pad.y;
+        for (galley, colour) in galleys {
+            let x = top.x - 0.5 * galley.size().x;
+            y += galley.size().y;
+            self.painter.galley(pos2(x, y - galley.size().y), galley, colour);
+        }
+    }
+
+    fn message(&self, hud: &Hud) {
+        let first = if hud.is_foul { FOUL } else { TEXT };
+        let lines: Vec<_> = hud
+            .message
+            .iter()
+            .enumerate()
+            .map(|(i, text)| {
+                let (size, colour) = if i == 0 { (18.0, first) } else { (14.5, FAINT) };
+                (text.clone(), size, colour)
+            })
+            .collect();
+        if !lines.is_empty() {
+            let top = self.screen.center_top() + vec2(0.0, 14.0 * self.unit);
+            // Between the panels of the players.
+            let width = (self.screen.width() - 660.0 * self.unit).max(260.0 * self.unit);
+            self.paragraph(top, width, &lines);
+        }
+    }
+
+    fn hint(&self, hud: &Hud) {
+        let margin = 14.0 * self.unit;
+        if !hud.hint.is_empty() {
+            let bottom = self.screen.center_bottom() - vec2(0.0, margin + 34.0 * self.unit);
+            let line = (hud.hint.clone(), 15.5, TEXT);
+            self.paragraph(bottom, self.screen.width() * 0.6, &[line]);
+        }
+        if !hud.help_hint.is_empty() {
+            let at = self.screen.left_bottom() + vec2(margin, -margin);
+            self.text(at, Align2::LEFT_BOTTOM, &hud.help_hint, 14.0, FAINT);
+        }
+    }
+
+    /// The cue ball from behind, with the spot where the tip meets it.
+    fn tip(&self, tip: &TipDial, elevation: Option<&str>) {
+        let radius = 44.0 * self.unit;
+        let margin = 22.0 * self.unit;
+        let middle = self.screen.right_bottom() - Vec2::splat(margin + radius);
+        let ivory = Color32::from_rgb(238, 233, 216);
+        self.painter.circle_filled(middle, radius, ivory);
+        let line = Stroke::new(self.unit, Color32::from_gray(170));
+        self.painter.circle_stroke(middle, radius * tip.limit as f32, line);
+        self.painter.line_segment([middle - vec2(radius, 0.0), middle + vec2(radius, 0.0)], line);
+        self.painter.line_segment([middle - vec2(0.0, radius), middle + vec2(0.0, radius)], line);
+        let spot = middle + vec2(tip.side as f32, -tip.height as f32) * radius;
+        self.painter.circle_filled(spot, 0.2 * radius, Color32::from_rgb(38, 92, 150));
+        if let Some(text) = elevation {
+            let at = middle - vec2(0.0, radius + 6.0 * self.unit);
+            self.text(at, Align2::CENTER_BOTTOM, text, 14.0, FAINT);
+        }
+    }
+
+    fn strength(&self, gauge: &Gauge) {
+        let size = vec2(16.0, 190.0) * self.unit;
+        let corner = self.screen.right_bottom() - vec2(160.0, 24.0) * self.unit;
+        let rect = Rect::from_min_max(corner - size, corner);
+        self.panel(rect.expand(3.0 * self.unit));
+        let mut full = rect;
+        full.set_top(rect.bottom() - rect.height() * gauge.fill as f32);
+        let green = (1.0 - gauge.fill as f32).clamp(0.0, 1.0);
+        let colour = Color32::from_rgb(235, (70.0 + 150.0 * green) as u8, 60);
+        self.painter.rect_filled(full, 3.0 * self.unit, colour);
+        let at = rect.center_top() - vec2(0.0, 8.0 * self.unit);
+        self.text(at, Align2::CENTER_BOTTOM, &gauge.text, 15.0, TEXT);
+    }
+
+    fn banner(&self, title: &str, hint: &str) {
+        let top = self.screen.center() - vec2(0.0, 70.0 * self.unit);
+        let lines = [(title.to_string(), 46.0, ACTIVE), (hint.to_string(), 17.0, TEXT)];
+        self.paragraph(top, self.screen.width() * 0.8, &lines);
+    }
+
+    fn help(&self, title: &str, rows: &[(String, String)]) {
+        let (row, width) = (27.0 * self.unit, 830.0 * self.unit);
+        let height = row * (rows.len() as f32 + 2.0);
+        let rect = Rect::from_center_size(self.screen.center(), vec2(width, height));
+        self.painter.rect_filled(rect, 9.0 * self.unit, PANEL);
+        self.painter.rect_filled(rect, 9.0 * self.unit, PANEL);
+        let left = rect.left() + 22.0 * self.unit;
+        let mut y = rect.top() + 0.8 * row;
+        self.text(pos2(left, y), Align2::LEFT_CENTER, title, 21.0, ACTIVE);
+        for (keys, does) in rows {
+            y += row;
+            self.text(pos2(left, y), Align2::LEFT_CENTER, keys, 15.5, ACTIVE);
+            let at = pos2(left + 320.0 * self.unit, y);
+            self.text(at, Align2::LEFT_CENTER, does, 15.5, TEXT);
+        }
+    }
+}

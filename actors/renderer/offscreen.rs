@@ -1,0 +1,90 @@
+//! Pictures without a window: an OpenGL context of its own, through EGL without any surface.
+
+use super::NoPicture;
+use super::stage::{BACKGROUND, Stage};
+use hapticbillard::renderer::DrawList;
+use hapticbillard::table::Table;
+use khronos_egl as egl;
+use std::sync::Arc;
+use three_d::*;
+
+/// EGL_PLATFORM_SURFACELESS_MESA.
+const SURFACELESS: egl::Enum = 0x31DD;
+/// Samples per pixel.
+const SAMPLES: u32 = 4;
+
+type Egl = egl::DynamicInstance<egl::EGL1_5>;
+
+fn failed(step: &str, reason: impl std::fmt::Display) -> NoPicture {
+    NoPicture(format!(
+        "cannot draw without a window: {step}: {reason}; \
+         on Debian and Ubuntu: apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri"
+    ))
+}
+
+/// A context that belongs to this thread.
+#[allow(unsafe_code)]
+fn context() -> Result<Context, NoPicture> {
+    // SAFETY: loads the system's EGL library, whose initialisers are those of a system library.
+    // It is leaked, so nothing that is loaded from it can outlive it.
+    let egl: &'static Egl = Box::leak(Box::new(
+        unsafe { Egl::load_required() }.map_err(|error| failed("no EGL", error))?,
+    ));
+    // SAFETY: the default display is what the surfaceless platform asks for.
+    let display =
+        unsafe { egl.get_platform_display(SURFACELESS, egl::DEFAULT_DISPLAY, &[egl::ATTRIB_NONE]) }
+            .map_err(|error| failed("EGL has no surfaceless display", error))?;
+    egl.initialize(display).map_err(|error| failed("EGL does not start", error))?;
+    egl.bind_api(egl::OPENGL_API).map_err(|error| failed("no OpenGL", error))?;
+    let wanted =
+        [egl::SURFACE_TYPE, egl::PBUFFER_BIT, egl::RENDERABLE_TYPE, egl::OPENGL_BIT, egl::NONE];
+    let config = egl
+        .choose_first_config(display, &wanted)
+        .map_err(|error| failed("no EGL configuration", error))?
+        .ok_or_else(|| failed("no EGL configuration", "none fits"))?;
+    let version = [
+        egl::CONTEXT_MAJOR_VERSION,
+        3,
+        egl::CONTEXT_MINOR_VERSION,
+        3,
+        egl::CONTEXT_OPENGL_PROFILE_MASK,
+        egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
+        egl::NONE,
+    ];
+    let own = egl
+        .create_context(display, config, None, &version)
+        .map_err(|error| failed("no OpenGL 3.3", error))?;
+    egl.make_current(display, None, None, Some(own))
+        .map_err(|error| failed("no OpenGL context", error))?;
+    // SAFETY: the context is current on this thread, and the functions come from its own EGL.
+    let gl = unsafe {
+        context::Context::from_loader_function(|name| {
+            egl.get_proc_address(name).map_or(std::ptr::null(), |function| function as *const _)
+        })
+    };
+    Context::from_gl_context(Arc::new(gl)).map_err(|error| failed("OpenGL", error))
+}
+
+/// One picture, rows from the top, red, green, blue and opacity in each pixel.
+///
+/// # Errors
+/// [`NoPicture`] if this machine has no OpenGL.
+pub fn pixels(
+    table: &Table,
+    list: &DrawList,
+    (width, height): (u32, u32),
+) -> Result<Vec<[u8; 4]>, NoPicture> {
+    let context = context()?;
+    let mut stage = Stage::new(&context, table);
+    let target = RenderTargetMultisample::<[u8; 4], f32>::new(&context, width, height, SAMPLES);
+    let [r, g, b] = BACKGROUND;
+    target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
+    target
+        .write::<CoreError>(|| {
+            stage.draw(list, Viewport::new_at_origo(width, height));
+            Ok(())
+        })
+        .map_err(|error| failed("OpenGL", error))?;
+    let texture = target.resolve_color();
+    Ok(texture.as_color_target(None).read())
+}

@@ -1,0 +1,78 @@
+// Everything of a table and its room. KIND is set before this text.
+
+in vec3 pos;
+in vec3 nor;
+in vec2 uvs;
+uniform sampler2D grain;
+// Half the outer length and width of the table.
+uniform vec2 outer;
+layout (location = 0) out vec4 colour;
+
+void main() {
+    vec3 n = normalize(nor);
+    vec3 v = normalize(eye - pos);
+    vec3 albedo = vec3(0.5);
+    float gloss = 0.0;
+    float open = 1.0;
+#if KIND == 0
+    // Cloth: a fine nap, darker under the cushions.
+    float nap = texture(grain, uvs * 2.2).r;
+    albedo = vec3(0.012, 0.205, 0.098) * (0.86 + 0.28 * nap);
+    vec2 inside = bed - abs(pos.xy);
+    // Head string, head spot and foot spot, never thinner than the picture can show.
+    float wide = max(fwidth(pos.x), fwidth(pos.y));
+    float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, abs(pos.x + 0.5 * bed.x)))
+        * step(0.0, inside.y) * min(1.0, 0.0035 / wide);
+    float spot = 1.0 - smoothstep(0.006, 0.006 + wide,
+        length(vec2(abs(pos.x) - 0.5 * bed.x, pos.y)));
+    albedo = mix(albedo, vec3(0.50, 0.60, 0.50), bed.x > 0.0 ? max(0.6 * line, 0.8 * spot) : 0.0);
+    if (bed.x > 0.0) {
+        open = mix(0.42, 1.0, smoothstep(-0.012, 0.055, min(inside.x, inside.y)));
+        open *= 0.15 + 0.85 * smoothstep(-0.03, -0.001, pos.z);
+    }
+#elif KIND == 1
+    float nap = texture(grain, uvs * 2.2).r;
+    albedo = vec3(0.010, 0.170, 0.082) * (0.86 + 0.28 * nap);
+    open = mix(0.35, 1.0, smoothstep(-0.005, 0.03, pos.z));
+#elif KIND == 2
+    float wood = texture(grain, uvs * vec2(0.8, 3.0)).r;
+    albedo = mix(vec3(0.075, 0.022, 0.010), vec3(0.30, 0.115, 0.045), wood);
+    gloss = 0.32;
+#elif KIND == 3
+    float wood = texture(grain, uvs * vec2(0.8, 3.0)).r;
+    albedo = mix(vec3(0.040, 0.012, 0.006), vec3(0.150, 0.055, 0.024), wood);
+    gloss = 0.15;
+    open = 0.75;
+#elif KIND == 4
+    albedo = vec3(0.30, 0.26, 0.20);
+    gloss = 1.6;
+#elif KIND == 5
+    albedo = vec3(0.012, 0.010, 0.009);
+    open = 0.10 + 0.9 * smoothstep(-0.06, 0.02, pos.z);
+#elif KIND == 6
+    albedo = vec3(0.80, 0.77, 0.68);
+    gloss = 0.3;
+#elif KIND == 7
+    albedo = vec3(0.52, 0.62, 0.52);
+#else
+    // Floor boards, in the table's shadow below it.
+    float wood = texture(grain, uvs * vec2(0.45, 2.2)).r;
+    float board = fract(uvs.y / 0.14);
+    float joint = smoothstep(0.0, 0.03, board) * smoothstep(1.0, 0.97, board);
+    float tint = 0.8 + 0.4 * fract(sin(floor(uvs.y / 0.14) * 12.9898) * 43758.5453);
+    albedo = mix(vec3(0.050, 0.026, 0.014), vec3(0.16, 0.088, 0.046), wood) * tint;
+    albedo *= mix(0.45, 1.0, joint);
+    vec2 away = max(abs(pos.xy) - outer, 0.0);
+    open = mix(0.10, 0.62, smoothstep(0.0, 0.9, length(away)));
+#endif
+    vec3 light = albedo * received(pos, n) * open;
+    if (gloss > 0.0) {
+        float rim = 1.0 - max(dot(n, v), 0.0);
+        float fresnel = 0.045 + 0.5 * rim * rim * rim * rim;
+        light += surroundings(pos, reflect(-v, n), 0.12) * fresnel * gloss * open;
+    }
+#if KIND == 8
+    light = mix(light, ROOM, smoothstep(1.2, 3.2, length(away)));
+#endif
+    colour = vec4(developed(light), 1.0);
+}

@@ -1,0 +1,124 @@
+//! Textures that are computed: numbers, the nap of the cloth, the grain of wood.
+
+use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+use three_d::egui::FontDefinitions;
+use three_d::*;
+
+/// Side of a number's texture [pixels].
+const SIDE: u32 = 128;
+/// Side of the textures of cloth and wood [pixels].
+const GRAIN_SIDE: u32 = 512;
+
+fn texture(name: &str, side: u32, data: Vec<u8>) -> CpuTexture {
+    CpuTexture {
+        name: name.to_string(),
+        data: TextureData::RU8(data),
+        width: side,
+        height: side,
+        min_filter: Interpolation::Linear,
+        mag_filter: Interpolation::Linear,
+        mipmap: Some(Mipmap::default()),
+        wrap_s: Wrapping::Repeat,
+        wrap_t: Wrapping::Repeat,
+    }
+}
+
+/// The numbers 1 to 15, one layer each, ink on nothing.
+pub fn digits(context: &Context) -> Texture2DArray {
+    let layers: Vec<CpuTexture> =
+        (1..=15).map(|number| texture("number", SIDE, number_layer(number))).collect();
+    Texture2DArray::new(context, &layers.iter().collect::<Vec<_>>())
+}
+
+/// One number in the middle of a square, rows from the top; 6 and 9 are underlined.
+pub fn number_layer(number: u16) -> Vec<u8> {
+    let side = SIDE as usize;
+    let mut ink = vec![0.0f32; side * side];
+    let fonts = FontDefinitions::default();
+    // The font comes with the library of the head-up display; without it balls have no numbers.
+    let bytes = fonts.font_data.get("Hack").map(|data| data.font.to_vec()).unwrap_or_default();
+    let Ok(font) = FontRef::try_from_slice(&bytes) else { return vec![0; side * side] };
+    let text = number.to_string();
+    let height = if text.len() == 1 { 100.0 } else { 84.0 };
+    let scale = PxScale { x: if text.len() == 1 { 110.0 } else { 80.0 }, y: height };
+    let scaled = font.as_scaled(scale);
+    let width: f32 = text.chars().map(|c| scaled.h_advance(font.glyph_id(c))).sum();
+    let mut x = 0.5 * (SIDE as f32 - width);
+    // Digits have no descender: their middle lies half a capital above the base line.
+    let base = 0.5 * SIDE as f32 + 0.315 * height;
+    for c in text.chars() {
+        let id = font.glyph_id(c);
+        // Twice, a little apart: a bolder stroke than the font has.
+        for shift in [-2.2f32, 0.0, 2.2] {
+            let glyph: Glyph = id.with_scale_and_position(scale, point(x + shift, base));
+            let Some(outline) = font.outline_glyph(glyph) else { continue };
+            let bounds = outline.px_bounds();
+            outline.draw(|gx, gy, coverage| {
+                let (px, py) = (gx as i32 + bounds.min.x as i32, gy as i32 + bounds.min.y as i32);
+                if (0..SIDE as i32).contains(&px) && (0..SIDE as i32).contains(&py) {
+                    let at = &mut ink[py as usize * side + px as usize];
+                    *at = at.max(coverage);
+                }
+            });
+        }
+        x += scaled.h_advance(id);
+    }
+    if matches!(number, 6 | 9) {
+        for y in (base as usize + 8)..(base as usize + 15) {
+            ink[y * side + side / 2 - 22..y * side + side / 2 + 22].fill(1.0);
+        }
+    }
+    ink.iter().map(|ink| (ink * 255.0) as u8).collect()
+}
+
+/// A number from 0 to 1 for a place of a lattice that repeats.
+fn lattice(x: i64, y: i64, period: i64) -> f64 {
+    let (x, y) = (x.rem_euclid(period) as u64, y.rem_euclid(period) as u64);
+    let mut z = x.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ y.wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
+    z = (z ^ (z >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 32)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// Smooth noise that repeats after `period` cells.
+fn noise(x: f64, y: f64, period: i64) -> f64 {
+    let (i, j) = (x.floor(), y.floor());
+    let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
+    let (u, v) = (smooth(x - i), smooth(y - j));
+    let at = |dx: i64, dy: i64| lattice(i as i64 + dx, j as i64 + dy, period);
+    let low = at(0, 0) + (at(1, 0) - at(0, 0)) * u;
+    let high = at(0, 1) + (at(1, 1) - at(0, 1)) * u;
+    low + (high - low) * v
+}
+
+fn grain(context: &Context, name: &str, at: impl Fn(f64, f64) -> f64) -> Texture2D {
+    let side = f64::from(GRAIN_SIDE);
+    let data = (0..GRAIN_SIDE * GRAIN_SIDE).map(|i| {
+        let (x, y) = (f64::from(i % GRAIN_SIDE) / side, f64::from(i / GRAIN_SIDE) / side);
+        (at(x, y).clamp(0.0, 1.0) * 255.0) as u8
+    });
+    Texture2D::new(context, &texture(name, GRAIN_SIDE, data.collect()))
+}
+
+/// The nap of worsted cloth.
+pub fn nap(context: &Context) -> Texture2D {
+    grain(context, "nap", |x, y| {
+        let fine = noise(x * 256.0, y * 256.0, 256);
+        let fibre = noise(x * 64.0, y * 200.0, 200);
+        let patch = noise(x * 8.0, y * 8.0, 8);
+        0.5 * fine + 0.25 * fibre + 0.25 * patch
+    })
+}
+
+/// The grain of wood, along u.
+pub fn wood(context: &Context) -> Texture2D {
+    grain(context, "wood", |x, y| {
+        let bend = 0.10 * noise(x * 2.0, y * 4.0, 4) + 0.02 * noise(x * 8.0, y * 16.0, 16);
+        // Year by year: light in spring, darker and darker to a hard edge.
+        let year = (8.0 * (y + bend)).rem_euclid(1.0);
+        let rings = (1.0 - year * year) * (year * 12.0).min(1.0);
+        let pores = noise(x * 8.0, y * 256.0, 256);
+        let tone = noise(x * 3.0, y * 9.0, 9);
+        0.42 * rings + 0.33 * pores + 0.25 * tone
+    })
+}

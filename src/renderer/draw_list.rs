@@ -1,0 +1,180 @@
+//! The draw list: what is where in one picture, in `f32` as graphics cards want it.
+
+use super::look::{BallLook, ball_look};
+use crate::ball::{BallPlace, BallState, POOL_RADIUS_M};
+use crate::cue::CuePose;
+use crate::ids::BallId;
+use crate::input::{CameraPose, HumanMode, HumanView};
+use crate::physics::Snapshot;
+use glam::{DQuat, DVec3};
+
+/// How far lines float above the cloth [m]: above the marks on it, and no eye sees a gap.
+const LINE_LIFT_M: f64 = 0.0015;
+/// Half the width of an aim line [m].
+const LINE_HALF_WIDTH_M: f32 = 0.0016;
+/// How far the line of an object ball's way is drawn [m].
+const OBJECT_WAY_M: f64 = 0.30;
+
+/// The radii of the balls; they do not change in a game.
+#[derive(Debug, Clone, Default)]
+pub struct Radii(Vec<(BallId, f64)>);
+
+impl Radii {
+    /// From ids and radii [m].
+    pub fn new(radii: impl IntoIterator<Item = (BallId, f64)>) -> Self {
+        let mut radii: Vec<_> = radii.into_iter().collect();
+        radii.sort_by_key(|(id, _)| *id);
+        Radii(radii)
+    }
+
+    /// The radius of a ball [m]; a pool ball's if nobody said.
+    pub fn of(&self, id: BallId) -> f64 {
+        let found = self.0.binary_search_by_key(&id, |(known, _)| *known);
+        found.map_or(POOL_RADIUS_M, |i| self.0[i].1)
+    }
+}
+
+/// A ball in the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallInstance {
+    /// Which.
+    pub id: BallId,
+    /// How it looks.
+    pub look: BallLook,
+    /// Its middle [m].
+    pub position: [f32; 3],
+    /// Its rotation as x, y, z, w of a unit quaternion.
+    pub orientation: [f32; 4],
+    /// Its radius [m].
+    pub radius_m: f32,
+}
+
+/// A line on the cloth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// From here [m].
+    pub from: [f32; 3],
+    /// To here [m].
+    pub to: [f32; 3],
+    /// Half its width [m].
+    pub half_width_m: f32,
+    /// Red, green, blue in sRGB and opacity.
+    pub colour: [f32; 4],
+}
+
+/// A see-through ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GhostBall {
+    /// Its middle [m].
+    pub position: [f32; 3],
+    /// Its radius [m].
+    pub radius_m: f32,
+    /// Red, green, blue in sRGB and opacity.
+    pub colour: [f32; 4],
+}
+
+/// Everything that moves in one picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawList {
+    /// From where it is taken.
+    pub camera: CameraPose,
+    /// The balls, in ascending order of id.
+    pub balls: Vec<BallInstance>,
+    /// The cue.
+    pub cue: Option<CuePose>,
+    /// Lines of aim.
+    pub lines: Vec<Line>,
+    /// The cue ball where it would go.
+    pub ghosts: Vec<GhostBall>,
+}
+
+impl DrawList {
+    /// What a player sees of the world.
+    pub fn new(world: &Snapshot, view: &HumanView, radii: &Radii) -> Self {
+        // A cue ball that lay on the table when it was taken up is in the hand now.
+        let in_hand = view.placing.map(|_| BallId::CUE);
+        let balls = world
+            .on_table()
+            .filter(|ball| Some(ball.id) != in_hand)
+            .map(|ball| instance(ball, radii))
+            .collect();
+        let mut list = DrawList {
+            camera: view.camera,
+            balls,
+            cue: world.cue,
+            lines: Vec::new(),
+            ghosts: Vec::new(),
+        };
+        match view.mode {
+            HumanMode::Aiming | HumanMode::Stroking => list.show_aim(world, view, radii),
+            HumanMode::Placing => list.show_placing(view, radii),
+            HumanMode::Watching | HumanMode::Paused => {}
+        }
+        list
+    }
+
+    fn show_aim(&mut self, world: &Snapshot, view: &HumanView, radii: &Radii) {
+        let cue_ball = world.ball(BallId::CUE).filter(|ball| ball.place == BallPlace::OnTable);
+        let (Some(cue_ball), Some(ghost)) = (cue_ball, view.ghost) else { return };
+        let radius_m = radii.of(BallId::CUE);
+        let way = (ghost - cue_ball.position).truncate();
+        let length = way.length();
+        let ahead = way.normalize_or_zero();
+        // From the cue ball's edge to the ghost's.
+        if 2.0 * radius_m < length {
+            let from = cue_ball.position + (ahead * radius_m).extend(0.0);
+            let to = ghost - (ahead * radius_m).extend(0.0);
+            self.line(from, to, radius_m, [1.0, 1.0, 1.0, 0.55]);
+        }
+        let (position, radius) = (ghost.as_vec3().to_array(), radius_m as f32);
+        let colour = [1.0, 1.0, 1.0, 0.34];
+        self.ghosts.push(GhostBall { position, radius_m: radius, colour });
+        if view.object_heading.length_squared() > 0.5 {
+            // The object ball's middle lies a diameter ahead along its way.
+            let object = ghost + (view.object_heading * 2.0 * radius_m).extend(0.0);
+            let to = object + (view.object_heading * OBJECT_WAY_M).extend(0.0);
+            let from = object + (view.object_heading * radius_m).extend(0.0);
+            self.line(from, to, radius_m, [1.0, 0.86, 0.35, 0.6]);
+        }
+    }
+
+    fn show_placing(&mut self, view: &HumanView, radii: &Radii) {
+        let Some(at) = view.placing else { return };
+        let radius_m = radii.of(BallId::CUE);
+        let colour =
+            if view.placing_allowed { [1.0, 1.0, 0.96, 0.85] } else { [0.95, 0.2, 0.15, 0.6] };
+        let position = at.extend(radius_m).as_vec3().to_array();
+        self.ghosts.push(GhostBall { position, radius_m: radius_m as f32, colour });
+    }
+
+    /// A line at the height of the cloth under balls of this radius.
+    fn line(&mut self, from: DVec3, to: DVec3, radius_m: f64, colour: [f32; 4]) {
+        let down = DVec3::Z * (radius_m - LINE_LIFT_M);
+        self.lines.push(Line {
+            from: (from - down).as_vec3().to_array(),
+            to: (to - down).as_vec3().to_array(),
+            half_width_m: LINE_HALF_WIDTH_M,
+            colour,
+        });
+    }
+}
+
+fn instance(ball: &BallState, radii: &Radii) -> BallInstance {
+    BallInstance {
+        id: ball.id,
+        look: ball_look(ball.id),
+        position: ball.position.as_vec3().to_array(),
+        orientation: (ball.orientation * tossed(ball.id)).as_quat().to_array(),
+        radius_m: radii.of(ball.id) as f32,
+    }
+}
+
+/// How a ball lay in the hand that racked it: nobody turns all numbers the same way.
+fn tossed(id: BallId) -> DQuat {
+    let golden = 2.399_963_229_728_653;
+    let n = f64::from(id.0);
+    // Each somewhere else round the vertical, and tilted by up to 50 degrees.
+    DQuat::from_rotation_z(golden * n)
+        * DQuat::from_rotation_y(0.87 * libm::sin(2.0 * golden * n))
+        * DQuat::from_rotation_x(0.4 * libm::cos(3.0 * n))
+}

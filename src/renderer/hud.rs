@@ -1,0 +1,185 @@
+//! The head-up display: what is written over the picture, as text and numbers without places.
+
+use super::scoreboard::Scoreboard;
+use super::words::Words;
+use crate::cue::OFFSET_LIMIT;
+use crate::events::{Group, PlayerState};
+use crate::ids::{BallId, PlayerId};
+use crate::input::{HumanMode, HumanView};
+use crate::rules::Texts;
+
+/// The speed at which the gauge of strength is full [m/s]: a hard break.
+const FULL_SPEED_M_S: f64 = 10.0;
+
+/// What one player's panel shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeatPanel {
+    /// The name.
+    pub name: String,
+    /// What is played: a group, the 8, or that the table is open; empty in games without groups.
+    pub plays: String,
+    /// The balls still to be pocketed.
+    pub remaining: Remaining,
+    /// It is this player's turn.
+    pub is_at_table: bool,
+}
+
+/// The balls a player still has to pocket.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Remaining {
+    /// Nobody has a group.
+    Open,
+    /// These.
+    Balls(Vec<BallId>),
+}
+
+/// Where the tip meets the cue ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipDial {
+    /// Right of the middle, in ball radii.
+    pub side: f64,
+    /// Above the middle, in ball radii.
+    pub height: f64,
+    /// The largest offset, in ball radii.
+    pub limit: f64,
+}
+
+/// A bar between empty and full.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gauge {
+    /// From 0 to 1.
+    pub fill: f64,
+    /// What is written beside it.
+    pub text: String,
+}
+
+/// Everything that is written over the picture.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Hud {
+    /// One panel per player.
+    pub seats: Vec<SeatPanel>,
+    /// What happened or is to be done, most important first; whole sentences.
+    pub message: Vec<String>,
+    /// The message tells of a foul.
+    pub is_foul: bool,
+    /// What the player can do now.
+    pub hint: String,
+    /// Where the tip meets the cue ball, while aiming.
+    pub tip: Option<TipDial>,
+    /// How far the butt is raised, while aiming.
+    pub elevation: Option<String>,
+    /// Speed of the tip, while stroking and after a stroke.
+    pub strength: Option<Gauge>,
+    /// In large letters in the middle, with a hint under it: pause, or who won.
+    pub banner: Option<(String, String)>,
+    /// The table of controls, with its title.
+    pub help: Option<(String, Vec<(String, String)>)>,
+    /// How to get help; empty while it is shown.
+    pub help_hint: String,
+}
+
+impl Hud {
+    /// What stands in the window, given the state of the game and what the player does.
+    pub fn new(board: &Scoreboard, view: &HumanView, texts: &Texts, words: &Words) -> Self {
+        let mut hud = Hud {
+            seats: seats(board, words),
+            help_hint: if view.help { String::new() } else { words.get("help_hint") },
+            ..Hud::default()
+        };
+        if let Some(verdict) = &board.verdict {
+            hud.message.push(texts.verdict(verdict));
+            hud.is_foul = !verdict.fouls.is_empty();
+            if hud.is_foul {
+                // Why, in a sentence per foul.
+                hud.message.extend(texts.why(verdict).into_iter().take(verdict.fouls.len()));
+            }
+        } else if let Some(turn) = board.turn.as_ref().filter(|_| !board.is_rolling) {
+            hud.message.push(texts.turn(turn));
+        }
+        hud.hint = hint(board, view, words);
+        if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
+            hud.tip = Some(TipDial {
+                side: view.aim.side_offset,
+                height: view.aim.height_offset,
+                limit: OFFSET_LIMIT,
+            });
+            let degrees = format!("{:.0}", view.aim.elevation_rad.to_degrees());
+            hud.elevation = Some(words.fill("elevation", "degrees", &degrees));
+        }
+        let strokes = view.mode == HumanMode::Stroking;
+        if strokes || (board.is_rolling && view.strength_m_s > 0.0) {
+            hud.strength = Some(Gauge {
+                fill: (view.strength_m_s / FULL_SPEED_M_S).clamp(0.0, 1.0),
+                text: words.fill("speed", "speed", &format!("{:.1}", view.strength_m_s)),
+            });
+        }
+        hud.banner = banner(board, view, words);
+        if view.help {
+            hud.help = Some((words.get("help_title"), words.help().to_vec()));
+        }
+        hud
+    }
+}
+
+fn seats(board: &Scoreboard, words: &Words) -> Vec<SeatPanel> {
+    let players = [PlayerId::ONE, PlayerId::TWO].into_iter().take(board.names.len());
+    players
+        .map(|player| {
+            let remaining = board.remaining(player);
+            let plays = match (&board.groups, board.group(player), &remaining) {
+                (None, ..) => String::new(),
+                (Some(_), Some(_), Some(balls)) if balls.as_slice() == [BallId::EIGHT] => {
+                    words.get("eight")
+                }
+                (Some(_), Some(Group::Solids), _) => words.get("solids"),
+                (Some(_), Some(Group::Stripes), _) => words.get("stripes"),
+                (Some(_), None, _) => words.get("open"),
+            };
+            SeatPanel {
+                name: board.name(player).to_string(),
+                plays,
+                remaining: remaining.map_or(Remaining::Open, Remaining::Balls),
+                is_at_table: board.over.is_none()
+                    && board.turn.as_ref().is_some_and(|turn| turn.player == player),
+            }
+        })
+        .collect()
+}
+
+fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
+    if board.over.is_some() {
+        return String::new();
+    }
+    match view.mode {
+        HumanMode::Placing if view.placing_allowed => words.get("in_hand"),
+        HumanMode::Placing => words.get("not_there"),
+        HumanMode::Aiming => words.get("aim"),
+        HumanMode::Stroking => words.get("stroke"),
+        HumanMode::Paused => String::new(),
+        HumanMode::Watching if board.is_rolling => words.get("rolling"),
+        HumanMode::Watching => {
+            let Some(turn) = &board.turn else { return String::new() };
+            let key = match board.states[turn.player.index()] {
+                PlayerState::Lazing => "thinking",
+                PlayerState::Aiming => "aiming",
+                PlayerState::Shooting => "shooting",
+                PlayerState::Idle | PlayerState::Analyzing | PlayerState::Done => {
+                    return String::new();
+                }
+            };
+            words.fill(key, "player", board.name(turn.player))
+        }
+    }
+}
+
+fn banner(board: &Scoreboard, view: &HumanView, words: &Words) -> Option<(String, String)> {
+    match (board.over, view.mode) {
+        (Some(Some(winner)), _) => {
+            let title = words.fill("wins", "player", board.name(winner));
+            Some((title, words.get("over_hint")))
+        }
+        (Some(None), _) => Some((words.get("draw"), words.get("over_hint"))),
+        (None, HumanMode::Paused) => Some((words.get("paused"), words.get("paused_hint"))),
+        (None, _) => None,
+    }
+}

@@ -1,0 +1,102 @@
+//! The scoreboard: the state of a game as a window shows it, reduced from events.
+
+use crate::events::{
+    Event, FactKind, Group, Groups, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
+};
+use crate::ids::{BallId, PlayerId};
+use std::sync::Arc;
+
+/// What is known of the game. Every event leads from one state to the next; nothing else does.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scoreboard {
+    /// Names of player 1 and player 2, as many as play.
+    pub names: Vec<String>,
+    /// Whose turn it is, to play what.
+    pub turn: Option<Arc<Turn>>,
+    /// What the rules said about the last shot.
+    pub verdict: Option<Arc<Verdict>>,
+    /// Object balls on the table, in ascending order.
+    pub on_table: Vec<BallId>,
+    /// Who plays which group; none where a game has none.
+    pub groups: Option<Groups>,
+    /// Where a computer player stands in its turn.
+    pub states: [PlayerState; 2],
+    /// A stroke was made and the balls have not settled.
+    pub is_rolling: bool,
+    /// The game is over; who won, if anybody.
+    pub over: Option<Option<PlayerId>>,
+}
+
+impl Scoreboard {
+    /// Before the first event.
+    pub fn new(names: Vec<String>) -> Self {
+        Scoreboard { names, ..Scoreboard::default() }
+    }
+
+    /// What it needs to be told.
+    pub fn topics() -> Topics {
+        Topics::of(&[
+            Topic::Turn,
+            Topic::Verdict,
+            Topic::Player,
+            Topic::CueBallStruck,
+            Topic::BallPocketed,
+            Topic::BallOffTable,
+            Topic::Settled,
+        ])
+    }
+
+    /// Takes one event.
+    pub fn hear(&mut self, event: &Event) {
+        match event {
+            Event::Turn(turn) => {
+                self.on_table = turn.on_table.to_vec();
+                self.groups = turn.groups;
+                self.is_rolling = false;
+                self.turn = Some(turn.clone());
+            }
+            Event::Verdict(verdict) => {
+                self.groups = verdict.groups.or(self.groups);
+                if verdict.turn == TurnAfter::End {
+                    self.over = Some(verdict.winner);
+                }
+                self.is_rolling = false;
+                self.verdict = Some(verdict.clone());
+            }
+            Event::Player(report) => self.states[report.player.index()] = report.state,
+            Event::Fact(fact) => match fact.kind {
+                FactKind::CueBallStruck { .. } => {
+                    self.is_rolling = true;
+                    // What was said about the shot before is old now.
+                    self.verdict = None;
+                }
+                FactKind::BallPocketed { ball, .. } | FactKind::BallOffTable { ball } => {
+                    self.on_table.retain(|other| *other != ball);
+                }
+                FactKind::Settled { .. } => self.is_rolling = false,
+                _ => {}
+            },
+            Event::Command(_) | Event::Menu(_) | Event::Health(_) => {}
+        }
+    }
+
+    /// The name of a player.
+    pub fn name(&self, player: PlayerId) -> &str {
+        self.names.get(player.index()).map_or("", String::as_str)
+    }
+
+    /// The group of a player, once there are groups.
+    pub fn group(&self, player: PlayerId) -> Option<Group> {
+        self.groups?.of(player)
+    }
+
+    /// The balls that a player has still to pocket: the own group, then the 8. None while the
+    /// table is open, or in a game without groups.
+    pub fn remaining(&self, player: PlayerId) -> Option<Vec<BallId>> {
+        let group = self.group(player)?;
+        let own = self.on_table.iter().copied().filter(|ball| Group::of(*ball) == Some(group));
+        let mut balls: Vec<BallId> = own.collect();
+        balls.extend(self.on_table.iter().filter(|ball| **ball == BallId::EIGHT));
+        Some(balls)
+    }
+}

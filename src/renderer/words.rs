@@ -1,0 +1,45 @@
+//! The words in the window, in one language.
+
+use crate::rules::Language;
+
+/// The words of one language; the sentences of the rules are beside them in the same file.
+#[derive(Debug, Clone)]
+pub struct Words {
+    table: toml::Table,
+    help: Vec<(String, String)>,
+}
+
+impl Words {
+    /// The words of a language.
+    pub fn new(language: Language) -> Self {
+        // The file is compiled in and a test reads it: it cannot fail on a user's machine.
+        let file: toml::Table = language.file().parse().unwrap_or_default();
+        let table = file.get("hud").and_then(toml::Value::as_table).cloned().unwrap_or_default();
+        let text = |row: &toml::Value, key: &str| {
+            row.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_string()
+        };
+        let rows = table.get("help").and_then(toml::Value::as_array);
+        let help = rows.into_iter().flatten().map(|row| (text(row, "keys"), text(row, "does")));
+        Words { help: help.collect(), table }
+    }
+
+    /// The text at a key; the key itself where there is none, so that nothing is ever silent.
+    pub fn get(&self, key: &str) -> String {
+        self.table.get(key).and_then(toml::Value::as_str).unwrap_or(key).to_string()
+    }
+
+    /// The same with something filled in.
+    pub fn fill(&self, key: &str, place: &str, value: &str) -> String {
+        self.get(key).replace(&format!("{{{place}}}"), value)
+    }
+
+    /// The controls: what to press and what it does.
+    pub fn help(&self) -> &[(String, String)] {
+        &self.help
+    }
+
+    /// All keys, for comparing languages.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.table.keys().map(String::as_str)
+    }
+}
