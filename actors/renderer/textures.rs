@@ -114,7 +114,9 @@ pub fn nap(context: &Context) -> Texture2D {
 pub fn wood(context: &Context) -> Texture2D {
     grain(context, "wood", |x, y| {
         let bend = 0.10 * noise(x * 2.0, y * 4.0, 4) + 0.02 * noise(x * 8.0, y * 16.0, 16);
-        let rings = 0.5 + 0.5 * (std::f64::consts::TAU * (8.0 * (y + bend))).sin();
+        // Year by year: light in spring, darker and darker to a hard edge.
+        let year = (8.0 * (y + bend)).rem_euclid(1.0);
+        let rings = (1.0 - year * year) * (year * 12.0).min(1.0);
         let pores = noise(x * 8.0, y * 256.0, 256);
         let tone = noise(x * 3.0, y * 9.0, 9);
         0.42 * rings + 0.33 * pores + 0.25 * tone

@@ -8,7 +8,8 @@ layout (location = 0) out vec4 colour;
 void main() {
     vec3 n = normalize(nor);
     vec3 v = normalize(eye - pos);
-    vec3 albedo = pow(col.rgb, vec3(2.2));
+    // Vertex colours come linear.
+    vec3 albedo = col.rgb;
     float rim = 1.0 - max(dot(n, v), 0.0);
     vec3 light = albedo * received(pos, n);
     light += surroundings(pos, reflect(-v, n), 0.04) * (0.035 + 0.3 * rim * rim * rim * rim);
