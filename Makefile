@@ -6,10 +6,15 @@ PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcu
 	libxrandr2 libxkbcommon-x11-0 pkg-config
 CARGO := cargo
 
-.PHONY: play test setup early featureless lints everything documents package
+.PHONY: play test window setup early featureless lints everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
+
+# A whole game with real mouse and key events, in real time on a virtual display.
+window: setup
+	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game \
+	  -- --nocapture
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package

@@ -229,3 +229,38 @@ fn validate_refuses_what_is_no_catalogue_in_one_line() {
     assert_eq!(output.status.code(), Some(2), "{output:?}");
     assert!(text(&output.stderr).contains("fixed-step"), "{output:?}");
 }
+
+#[test]
+fn play_without_a_display_says_so_in_one_line_and_plays_on() {
+    let folder = folder("no_display");
+    let output = Command::new(env!("CARGO_BIN_EXE_hapticbillard"))
+        .arg("play")
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env("HOME", &folder)
+        .env("XDG_DATA_HOME", &folder)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let said = text(&output.stderr);
+    let first = said.lines().next().unwrap();
+    assert!(first.ends_with("eight_ball_headless is played without a window"), "{first}");
+    assert!(said.lines().skip(1).all(|line| line.starts_with("shot ")), "{said}");
+    assert!(text(&output.stdout).contains(" wins after "), "{output:?}");
+    let recordings = folder.join("hapticbillard").join("recordings");
+    let files: Vec<_> = std::fs::read_dir(recordings).unwrap().collect();
+    assert_eq!(files.len(), 1);
+    let file = files[0].as_ref().unwrap().path();
+    let checked = program(&["replay", file.to_str().unwrap(), "--verify", "--headless"]);
+    assert!(checked.status.success(), "{checked:?}");
+}
+
+#[cfg(not(feature = "renderer"))]
+#[test]
+fn render_in_a_build_without_pictures_says_so() {
+    refused(
+        &["render", "--scene", "one_ball", "--out", "never.png"],
+        "render: this build draws no pictures; \
+         build it with the feature `renderer`, which is there by default",
+    );
+}

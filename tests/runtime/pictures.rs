@@ -98,8 +98,7 @@ fn numbers_are_not_mirrored_and_stand_upright() {
         for x in -12i32..=12 {
             let [r, g, b] = at(&pixels, (160 + x) as u32, (97 + y) as u32);
             let is_ink = r + g + b < 330;
-            // About 19 pixels are the disc's radius; its middle is nearer to the eye than the
-            // cloth's.
+            // About 19 pixels are the disc's radius; its middle lies above the picture's.
             let texel = |x: i32, y: i32| {
                 let (u, v) = (64 + x * 64 / 19, 64 + y * 64 / 19);
                 layer[(v * side + u) as usize] > 128

@@ -394,6 +394,10 @@ fn play(desk: &Desk) -> Seen {
 /// Breaks, aims, offsets the tip, pots and fouls in a window, against the computer, to the end.
 #[test]
 fn a_whole_game_is_played_in_a_window_with_mouse_and_keys() {
+    if std::env::var_os("WINDOW_TESTS").is_none() {
+        println!("skipped: it plays in real time; `make window` runs it");
+        return;
+    }
     if !has("Xvfb") || !has("xdotool") {
         println!("skipped: Xvfb and xdotool are not installed (apt-get install xvfb xdotool)");
         return;

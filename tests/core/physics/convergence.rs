@@ -36,7 +36,6 @@ fn the_error_of_one_ball_falls_to_a_tenth_with_the_step() {
         let errors = [4.0, 0.4].map(|step_ms| {
             let balls = std::slice::from_ref(&start);
             let end = places(&Table::plane(), balls, &step(step_ms), 30.0)[0];
-                places(&Table::plane(), std::slice::from_ref(&start), &step(step_ms), 30.0)[0];
             (end.x - exact).abs()
         });
         ratios.push(errors[1] / errors[0]);
