@@ -92,6 +92,8 @@ pub struct SimulateArgs {
 /// Solvers by their names in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum SolverName {
+    /// Exact: closed forms between contacts, contacts as roots of polynomials.
+    EventDriven,
     /// The paper's method: fixed steps, contacts found by overlap.
     FixedStep,
 }
@@ -119,8 +121,11 @@ fn override_scene(args: &SimulateArgs, scene: &mut Scene) {
     if let Some(seed) = args.seed {
         scene.about.seed = seed;
     }
-    if let Some(SolverName::FixedStep) = args.solver {
-        scene.physics.solver = SolverKind::FixedStep;
+    if let Some(solver) = args.solver {
+        scene.physics.solver = match solver {
+            SolverName::EventDriven => SolverKind::EventDriven,
+            SolverName::FixedStep => SolverKind::FixedStep,
+        };
     }
     if let Some(step_ms) = args.step_ms {
         scene.physics.step_ms = step_ms;

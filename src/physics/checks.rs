@@ -72,16 +72,17 @@ fn check_ball(ball: &Ball, state: &BallState) -> Result<(), PhysicsError> {
 fn check_overlaps(balls: &[(Ball, BallState)]) -> Result<(), PhysicsError> {
     let mut order: Vec<usize> = (0..balls.len())
         .filter(|index| {
-            balls[*index].0.flags.collide && balls[*index].1.place == crate::ball::BallPlace::OnTable
+            balls[*index].0.flags.collide
+                && balls[*index].1.place == crate::ball::BallPlace::OnTable
         })
         .collect();
     let low = |index: &usize| balls[*index].1.position.x - balls[*index].0.radius_m;
     order.sort_by(|a, b| low(a).total_cmp(&low(b)));
     for (place, index) in order.iter().enumerate() {
         let (a, at) = &balls[*index];
-        for other in order[place + 1..].iter().take_while(|other| {
-            low(other) <= at.position.x + a.radius_m
-        }) {
+        for other in
+            order[place + 1..].iter().take_while(|other| low(other) <= at.position.x + a.radius_m)
+        {
             let (b, there) = &balls[*other];
             let depth_m = a.radius_m + b.radius_m - at.position.distance(there.position);
             if depth_m > super::tolerance::START_OVERLAP_M {

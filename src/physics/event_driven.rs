@@ -12,8 +12,10 @@
 
 mod body;
 pub mod closing;
+mod cluster;
 mod commands;
 mod contacts;
+mod course;
 mod lasting;
 mod motion;
 mod predict;
@@ -25,7 +27,7 @@ mod tip;
 
 pub use segment::{Course, Segment};
 
-use super::{Ledger, Parameters, PhysicsError, PhysicsSettings, Solver, Work, checks, tolerance};
+use super::{Ledger, Parameters, PhysicsError, Solver, Work, checks, tolerance};
 use crate::ball::{Ball, BallState};
 use crate::cue::CuePose;
 use crate::events::{Command, Fact, FactSet};
@@ -94,10 +96,8 @@ impl EventDriven {
     pub fn new(
         table: &Table,
         balls: Vec<(Ball, BallState)>,
-        settings: &PhysicsSettings,
         parameters: Parameters,
     ) -> Result<Self, PhysicsError> {
-        let _ = settings;
         parameters.check()?;
         let balls = checks::checked(balls)?;
         let largest = balls.iter().map(|(ball, _)| ball.radius_m).fold(0.0, f64::max);

@@ -28,7 +28,8 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    checks, Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, tolerance,
+    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks,
+    tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
@@ -112,7 +113,13 @@ impl FixedStep {
         parameters: Parameters,
         cell_m: f64,
     ) -> Result<Self, PhysicsError> {
-        checks::check_setting("step_ms", settings.step_ms, 1e-6, 50.0, "must lie between 1e-6 and 50")?;
+        checks::check_setting(
+            "step_ms",
+            settings.step_ms,
+            1e-6,
+            50.0,
+            "must lie between 1e-6 and 50",
+        )?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
         let bodies: Vec<Body> = checks::checked(balls)?

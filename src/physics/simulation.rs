@@ -94,7 +94,7 @@ impl Simulation {
     ) -> Result<Self, PhysicsError> {
         let engine = match settings.solver {
             SolverKind::EventDriven => {
-                let solver = EventDriven::new(table, balls, settings, parameters)?;
+                let solver = EventDriven::new(table, balls, parameters)?;
                 Engine::EventDriven(Box::new(solver))
             }
             SolverKind::FixedStep => {

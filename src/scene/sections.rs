@@ -143,10 +143,13 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
     ];
     Ok(PhysicsSettings {
         solver: section
-            .choice("solver", &[
-                (&["event-driven"], SolverKind::EventDriven),
-                (&["fixed-step"], SolverKind::FixedStep),
-            ])?
+            .choice(
+                "solver",
+                &[
+                    (&["event-driven"], SolverKind::EventDriven),
+                    (&["fixed-step"], SolverKind::FixedStep),
+                ],
+            )?
             .unwrap_or(default.solver),
         step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
         integrator: section.choice("integrator", &integrators)?.unwrap_or(default.integrator),

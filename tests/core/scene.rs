@@ -158,14 +158,14 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
          contact_back_dating, thread; did you mean gravity_m_s2?",
     );
     after_head(
-        "solver = \"event-driven\"\n",
-        "4: physics.solver = \"event-driven\": this build knows only \"fixed-step\"; write for \
-         example solver = \"fixed-step\"",
+        "solver = \"exact\"\n",
+        "4: physics.solver = \"exact\": this build knows \"event-driven\", \"fixed-step\"; write \
+         for example solver = \"event-driven\"",
     );
     after_head(
         "solver = \"fixed-stpe\"\n",
-        "4: physics.solver = \"fixed-stpe\": this build knows only \"fixed-step\"; did you mean \
-         \"fixed-step\"?",
+        "4: physics.solver = \"fixed-stpe\": this build knows \"event-driven\", \"fixed-step\"; \
+         did you mean \"fixed-step\"?",
     );
     after_head(
         "integrator = \"euler\"\n",

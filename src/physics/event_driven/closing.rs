@@ -2,8 +2,8 @@
 //!
 //! Not the smallest positive root: rounding puts the root of a touching start at −1e-18 as often as
 //! not. The event is the first time at which the gap is not positive and falls (Bannerman, Strobl,
-//! Formella, Pöschel 2014). A contact that closes too slowly to be an impact counts only once it has
-//! pressed in a little, so two things that lie together do not collide for ever.
+//! Formella, Pöschel 2014). A contact that closes too slowly to be an impact counts only once it
+//! has pressed in a little, so two things that lie together do not collide for ever.
 
 use crate::physics::tolerance;
 use crate::units::Seconds;

@@ -120,7 +120,11 @@ impl EventDriven {
             self.watch_rails(*index, at);
             self.close_segment(at, *index);
             let state = self.state_at(at, *index);
-            self.bodies[*index].turn_into(Segment { course: Course::Lasting, swing: None, ..state });
+            self.bodies[*index].turn_into(Segment {
+                course: Course::Lasting,
+                swing: None,
+                ..state
+            });
         }
         let step = tolerance::LASTING_STEP_S;
         let next = (libm::floor(at / step + 0.5) + 1.0) * step;
@@ -136,8 +140,8 @@ impl EventDriven {
         Ok(())
     }
 
-    /// Emits the pieces of a group of balls up to `until`; balls that nothing unusual holds any more
-    /// go on by closed forms. Their segments must start at `at`.
+    /// Emits the pieces of a group of balls up to `until`; balls that nothing unusual holds any
+    /// more go on by closed forms. Their segments must start at `at`.
     fn pieces(&mut self, at: Seconds, group: &[usize], until: Seconds) {
         let dt = until - at;
         let gravity = DVec3::NEG_Z * self.parameters.gravity_m_s2;

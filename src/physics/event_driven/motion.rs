@@ -1,8 +1,8 @@
 //! Which law a ball follows from here, in closed form.
 //!
 //! On a level surface: sliding (the slip keeps its direction), rolling, spinning, rest. On a slope:
-//! what runs along the line of fall. In the air: gravity. Whatever else carries a ball has no closed
-//! form and is left to [`super::lasting`].
+//! what runs along the line of fall. In the air: gravity. Whatever else carries a ball has no
+//! closed form and is left to [`super::lasting`].
 
 use super::segment::{Course, Segment, Swing};
 use crate::ball::Ball;
@@ -51,8 +51,12 @@ fn springing(start: &Segment, ball: &Ball, parameters: &Parameters) -> Option<Se
         (omega, spring.angular_damping_nms_rad / (2.0 * omega * inertia))
     });
     let rest = spring.anchor_m - DVec3::Z * (weight / (omega * omega));
-    let swing =
-        Swing { rest, linear: (omega, d / (2.0 * (k * m).sqrt())), angular, anchor: spring.anchor_orientation };
+    let swing = Swing {
+        rest,
+        linear: (omega, d / (2.0 * (k * m).sqrt())),
+        angular,
+        anchor: spring.anchor_orientation,
+    };
     let still = (start.position - rest).length() * omega + start.velocity.length();
     if still < SWING_OVER_M_S && start.angular_velocity == DVec3::ZERO && angular.is_none() {
         return Some(Segment::still(start.start_s, rest, start.orientation));
@@ -71,7 +75,8 @@ fn springing(start: &Segment, ball: &Ball, parameters: &Parameters) -> Option<Se
         ..*start
     };
     let end = segment.position_at(start.start_s + piece);
-    segment.acceleration = (end - start.position - start.velocity * piece) * (2.0 / (piece * piece));
+    segment.acceleration =
+        (end - start.position - start.velocity * piece) * (2.0 / (piece * piece));
     Some(segment)
 }
 
@@ -84,8 +89,7 @@ pub fn free(start: &Segment, ball: &Ball, parameters: &Parameters) -> Segment {
 /// A ball that nothing carries.
 fn flying(start: &Segment, ball: &Ball, parameters: &Parameters) -> Segment {
     let weighs = ball.flags.gravity && ball.flags.integrate && parameters.gravity_m_s2 != 0.0;
-    let acceleration =
-        if weighs { DVec3::NEG_Z * parameters.gravity_m_s2 } else { DVec3::ZERO };
+    let acceleration = if weighs { DVec3::NEG_Z * parameters.gravity_m_s2 } else { DVec3::ZERO };
     Segment {
         end_s: if weighs { start.start_s + LONGEST_S } else { f64::INFINITY },
         acceleration,
@@ -230,8 +234,11 @@ impl Slope {
         let decays = parameters.spin_deceleration_rad_s2 > 0.0;
         let still = Segment { velocity: DVec3::ZERO, end_s: f64::INFINITY, ..carried };
         if spin != 0.0 {
-            let lasts =
-                if decays { spin.abs() / parameters.spin_deceleration_rad_s2 } else { f64::INFINITY };
+            let lasts = if decays {
+                spin.abs() / parameters.spin_deceleration_rad_s2
+            } else {
+                f64::INFINITY
+            };
             return Some(Segment {
                 end_s: s.start_s + lasts,
                 angular_velocity: normal * spin,
@@ -263,12 +270,9 @@ pub fn after(
         Course::Sliding => roll(end, ball, parameters),
         Course::Rolling | Course::Spinning | Course::Settling | Course::Rest => {
             let spin = end.segment.angular_velocity.dot(end.normal);
-            let kept = if segment.course == Course::Rolling { end.normal * spin } else { DVec3::ZERO };
-            let state = Segment {
-                velocity: DVec3::ZERO,
-                angular_velocity: kept,
-                ..end.segment
-            };
+            let kept =
+                if segment.course == Course::Rolling { end.normal * spin } else { DVec3::ZERO };
+            let state = Segment { velocity: DVec3::ZERO, angular_velocity: kept, ..end.segment };
             roll(&Start { segment: state, hops_s: 0.0, ..*end }, ball, parameters)
         }
         Course::Lasting => None,

@@ -102,7 +102,8 @@ impl EventDriven {
         let mut best = none;
         // x − head rises through zero: its negative falls.
         if body.behind
-            && let Some(time) = closing::falling_quadratic((head - x.x).max(0.0), -v.x, -a.x, horizon)
+            && let Some(time) =
+                closing::falling_quadratic((head - x.x).max(0.0), -v.x, -a.x, horizon)
         {
             best = (after + time, Report::HeadString);
         }

@@ -178,7 +178,8 @@ impl Segment {
         }
         let (alpha, omega) = (self.angular_acceleration, self.angular_velocity);
         let spin = omega.dot(self.normal);
-        let mean = omega * t + alpha * (0.5 * t * t)
+        let mean = omega * t
+            + alpha * (0.5 * t * t)
             + self.normal * (self.spin_after(t).1 - spin * t)
             + alpha.cross(omega) * (t * t * t / 12.0);
         spring::turned(self.orientation, mean, 1.0)

@@ -115,7 +115,8 @@ impl Walk<'_> {
             let inside = self.terrain.cell_of(self.segment.position_at(now)).clamp(low, high);
             cell = inside;
             cell[axis] = if up { high[axis] + 1 } else { low[axis] - 1 };
-            let beyond = if up { self.terrain.cells_along(axis) <= cell[axis] } else { cell[axis] < 0 };
+            let beyond =
+                if up { self.terrain.cells_along(axis) <= cell[axis] } else { cell[axis] < 0 };
             if beyond && !self.returns(now, axis, up) {
                 return None;
             }
@@ -166,8 +167,11 @@ impl Walk<'_> {
         let velocity = self.segment.velocity_at(now);
         let control = position + velocity * (0.5 * length);
         let end = self.segment.position_at(exit);
-        let bounds = Bounds::swept(position, end, self.radius_m)
-            .join(&Bounds::swept(control, control, self.radius_m));
+        let bounds = Bounds::swept(position, end, self.radius_m).join(&Bounds::swept(
+            control,
+            control,
+            self.radius_m,
+        ));
         let acceleration = self.segment.acceleration;
         let mut slice = Slice { length, position, velocity, acceleration, bounds };
         let mut best: Option<Meeting> = None;

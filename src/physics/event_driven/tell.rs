@@ -104,8 +104,7 @@ impl EventDriven {
         let at = self.done;
         let body = &mut self.bodies[index];
         let position = body.segment.position_at(at);
-        let near =
-            self.terrain.bed.map_or(0, |bed| near_rails(&bed, position, body.ball.radius_m));
+        let near = self.terrain.bed.map_or(0, |bed| near_rails(&bed, position, body.ball.radius_m));
         body.clear_rails = ALL_RAILS & !near;
         body.held_rails = 0;
         body.behind = self.terrain.head_string_x().is_some_and(|head| position.x <= head);
@@ -174,11 +173,8 @@ impl EventDriven {
         }
         let body = &mut self.bodies[index];
         let (ball, speed_m_s) = (body.ball.id, body.segment.velocity_at(at).length());
-        let rest = Segment::still(
-            at,
-            body.segment.position_at(at),
-            body.segment.orientation_at(at),
-        );
+        let rest =
+            Segment::still(at, body.segment.position_at(at), body.segment.orientation_at(at));
         body.put(place, at);
         body.held.clear();
         body.turn_into(rest);
@@ -286,7 +282,8 @@ impl EventDriven {
         }
         let (mass, inertia) = (body.ball.mass_kg, body.ball.inertia_kg_m2());
         let weighs = body.ball.flags.gravity;
-        let gravity = if weighs { DVec3::NEG_Z * self.parameters.gravity_m_s2 } else { DVec3::ZERO };
+        let gravity =
+            if weighs { DVec3::NEG_Z * self.parameters.gravity_m_s2 } else { DVec3::ZERO };
         let smooth = gravity * (mass * t);
         if s.swing.is_some() {
             let change = (s.velocity_at(at) - s.velocity) * mass;

@@ -1,9 +1,9 @@
 //! What does not move, prepared once: planes, flat patches, their edges and corners, in a grid.
 //!
 //! Coplanar neighbours of one surface are one patch, so seams do not exist: neither for rolling nor
-//! for detection. An edge between two patches, or at the border of an open mesh, is a feature of its
-//! own, and so is a corner where such edges meet. The grid lists for each cell everything that a
-//! ball whose centre is in it can touch; cells where nothing is in reach, or nothing but the bed,
+//! for detection. An edge between two patches, or at the border of an open mesh, is a feature of
+//! its own, and so is a corner where such edges meet. The grid lists for each cell everything that
+//! a ball whose centre is in it can touch; cells where nothing is in reach, or nothing but the bed,
 //! know how far around them that holds, and are passed in leaps.
 
 use crate::mesh::{Mesh, Surface};
@@ -51,7 +51,8 @@ pub struct Edge {
     pub along: DVec3,
     /// Its length [m].
     pub length_m: f64,
-    /// The patches that it borders, and for each the unit vector in its plane from the edge inwards.
+    /// The patches that it borders, and for each the unit vector in its plane from the edge
+    /// inwards.
     pub sides: SmallVec<[(u32, DVec3); 2]>,
     /// Both sides lie in one plane: nothing to collide with, but what carries a ball changes.
     pub flat: bool,
@@ -164,10 +165,10 @@ impl Terrain {
 
     /// The cell that holds `point`; outside of the grid it has coordinates that do not exist.
     pub fn cell_of(&self, point: DVec3) -> IVec3 {
-        ((point - self.origin) / self.cell_m).floor().clamp(
-            DVec3::splat(-2.0),
-            self.count.as_dvec3() + 1.0,
-        ).as_ivec3()
+        ((point - self.origin) / self.cell_m)
+            .floor()
+            .clamp(DVec3::splat(-2.0), self.count.as_dvec3() + 1.0)
+            .as_ivec3()
     }
 
     fn index(&self, cell: IVec3) -> Option<usize> {
@@ -175,8 +176,8 @@ impl Terrain {
         inside.then(|| ((cell.z * self.count.y + cell.y) * self.count.x + cell.x) as usize)
     }
 
-    /// How many cells around `cell`, itself included, hold nothing in reach of a ball that `on_main`
-    /// says is carried by the main patch; 0 if this one does. Outside of the grid: 1.
+    /// How many cells around `cell`, itself included, hold nothing in reach of a ball that
+    /// `on_main` says is carried by the main patch; 0 if this one does. Outside of the grid: 1.
     pub fn leap(&self, cell: IVec3, on_main: bool) -> i32 {
         let rings = if on_main { &self.bare } else { &self.empty };
         self.index(cell).map_or(1, |index| i32::from(rings[index]))
@@ -302,9 +303,9 @@ impl Terrain {
             // Neighbouring edges and corners are features of their own.
             (Feature::Edge(_), Feature::Edge(_)) => false,
             (Feature::Corner(corner), Feature::Edge(edge)) => {
-                let (point, edge) = (self.corners[corner as usize].point, &self.edges[edge as usize]);
-                point == edge.from
-                    || point.distance(edge.from + edge.along * edge.length_m) < 1e-12
+                let (point, edge) =
+                    (self.corners[corner as usize].point, &self.edges[edge as usize]);
+                point == edge.from || point.distance(edge.from + edge.along * edge.length_m) < 1e-12
             }
             _ => {
                 let of_held = patches(held);
@@ -321,8 +322,7 @@ impl Terrain {
         let size = high - low;
         let wanted = 2.0 * radius_m;
         self.origin = low;
-        self.count =
-            (size / wanted).ceil().as_ivec3().clamp(IVec3::ONE, IVec3::splat(CELLS_MAX));
+        self.count = (size / wanted).ceil().as_ivec3().clamp(IVec3::ONE, IVec3::splat(CELLS_MAX));
         self.cell_m = size / self.count.as_dvec3();
 
         let total = (self.count.x * self.count.y * self.count.z) as usize;
@@ -370,7 +370,8 @@ impl Terrain {
             for run in groups[cell].chunk_by(|a, b| a.0 == b.0) {
                 let first = self.cell_triangles.len() as u32;
                 self.cell_triangles.extend(run.iter().map(|(_, triangle)| *triangle));
-                let points = run.iter().flat_map(|(_, triangle)| self.triangles[*triangle as usize]);
+                let points =
+                    run.iter().flat_map(|(_, triangle)| self.triangles[*triangle as usize]);
                 let bounds = bounds_of(points);
                 let (patch, count) = (run[0].0, run.len() as u32);
                 self.groups.push(Group { patch, first, count, bounds });
@@ -424,11 +425,8 @@ fn rings(free: &[bool], count: IVec3) -> Vec<u8> {
         let total = count.x * count.y * count.z;
         for step in 0..total {
             let place = if forwards { step } else { total - 1 - step };
-            let cell = IVec3::new(
-                place % count.x,
-                place / count.x % count.y,
-                place / (count.x * count.y),
-            );
+            let cell =
+                IVec3::new(place % count.x, place / count.x % count.y, place / (count.x * count.y));
             let mut least = ring[place as usize];
             for offset in &neighbours {
                 let other = if forwards { cell + *offset } else { cell - *offset };
@@ -518,8 +516,7 @@ fn merge(mesh: &Mesh, terrain: &mut Terrain) -> Vec<u32> {
                     let other = *other as usize;
                     let flat = &flats[other];
                     let level = |corner: &u32| {
-                        (normal.dot(points[*corner as usize]) - offset).abs()
-                            <= tolerance::MERGE_M
+                        (normal.dot(points[*corner as usize]) - offset).abs() <= tolerance::MERGE_M
                     };
                     if patch_of[other] == u32::MAX
                         && flat.surface == surface

@@ -307,9 +307,8 @@ impl EventDriven {
         self.work.contacts += 1;
 
         // What is told is as it was before the stroke.
-        let lively = |body: &super::Body| {
-            body.in_play() && body.liveliness(at) > tolerance::REST_M_S
-        };
+        let lively =
+            |body: &super::Body| body.in_play() && body.liveliness(at) > tolerance::REST_M_S;
         let moving = !has_struck && self.bodies.iter().any(lively);
         let ball = body.ball.id;
         let point = position - normal * radius;
