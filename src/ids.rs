@@ -125,6 +125,11 @@ pub enum Rail {
 impl Rail {
     /// All rails, in their fixed order.
     pub const ALL: [Rail; 4] = [Self::Head, Self::Foot, Self::Left, Self::Right];
+
+    /// Its bit in a set of rails.
+    pub fn bit(self) -> u8 {
+        1 << self as u8
+    }
 }
 
 /// A player: 1 or 2. Who breaks first is player 1.

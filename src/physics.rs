@@ -5,6 +5,7 @@
 
 mod checks;
 mod error;
+mod guided_cue;
 mod settings;
 mod snapshot;
 
@@ -31,6 +32,7 @@ pub mod event_driven;
 mod shot;
 mod simulation;
 
+pub use checks::may_stand;
 pub use error::PhysicsError;
 pub use laws::choice::{BallLaw, CushionLaw, MultiContact};
 pub use laws::cue_ball::cue_contact;

@@ -26,6 +26,7 @@ mod display;
 pub use display::{DisplayPart, Material};
 pub use parameters::{PocketParameters, TableParameters};
 
+use crate::events::Zone;
 use crate::ids::PocketId;
 use crate::mesh::{Mesh, ObjError, Surface, parse_obj};
 use crate::shipped;
@@ -159,6 +160,9 @@ fn pocket(parameters: &TableParameters, id: PocketId) -> Pocket {
     }
 }
 
+/// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
+const D_RADIUS: f64 = 11.5 / 70.0;
+
 /// The playing area between the noses of the cushions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bed {
@@ -182,6 +186,16 @@ impl Bed {
     /// The middle of the head string [m].
     pub fn head_spot(&self) -> DVec2 {
         DVec2::new(self.head_string_x(), 0.0)
+    }
+
+    /// Whether a place on the bed lies in a zone.
+    pub fn in_zone(&self, zone: Zone, place: DVec2) -> bool {
+        let behind = place.x <= self.head_string_x();
+        match zone {
+            Zone::Anywhere => true,
+            Zone::Kitchen => behind,
+            Zone::D => behind && place.distance(self.head_spot()) <= D_RADIUS * self.width_m,
+        }
     }
 
     /// Whether a ball of this radius lies between the noses without touching one.

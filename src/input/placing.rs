@@ -2,12 +2,9 @@
 
 use super::sight::{cue_ball, object_balls};
 use crate::events::Zone;
-use crate::physics::Snapshot;
+use crate::physics::{Snapshot, may_stand};
 use crate::table::{Bed, Table};
 use glam::DVec2;
-
-/// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
-const D_RADIUS: f64 = 11.5 / 70.0;
 
 /// The cue ball is in hand.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +22,7 @@ impl Placing {
     pub fn new(zone: Zone, on_table: &Snapshot, bed: Option<&Bed>) -> Self {
         let lies = cue_ball(on_table).map(|ball| ball.truncate());
         let home = bed.map_or(DVec2::ZERO, Bed::head_spot);
-        let in_zone = |place: &DVec2| bed.is_none_or(|bed| zone_holds(zone, bed, *place));
+        let in_zone = |place: &DVec2| bed.is_none_or(|bed| bed.in_zone(zone, *place));
         Placing { zone, at: lies.filter(in_zone).unwrap_or(home), is_put: false }
     }
 
@@ -40,26 +37,9 @@ impl Placing {
 
     /// Whether it may lie where it is held: in its zone, on the bed, on no other ball.
     pub fn is_allowed(&self, on_table: &Snapshot, table: &Table, radius_m: f64) -> bool {
-        let on_bed = table
-            .bed
-            .is_none_or(|bed| zone_holds(self.zone, &bed, self.at) && bed.holds(self.at, radius_m));
-        let over_pocket =
-            table.pockets.iter().any(|pocket| pocket.centre.distance(self.at) <= pocket.radius_m);
-        let centre = self.at.extend(radius_m);
-        on_bed
-            && !over_pocket
-            // A ball's middle lies its radius above the bed.
-            && object_balls(on_table).all(|ball| ball.distance(centre) >= radius_m + ball.z)
-    }
-}
-
-fn zone_holds(zone: Zone, bed: &Bed, place: DVec2) -> bool {
-    match zone {
-        Zone::Anywhere => true,
-        Zone::Kitchen => place.x <= bed.head_string_x(),
-        Zone::D => {
-            place.x <= bed.head_string_x()
-                && place.distance(bed.head_spot()) <= D_RADIUS * bed.width_m
-        }
+        // A ball's middle lies its radius above the bed.
+        let others = object_balls(on_table).map(|ball| (ball, ball.z));
+        let bed = table.bed.as_ref();
+        may_stand(bed, &table.pockets, others, radius_m, self.at, self.zone)
     }
 }

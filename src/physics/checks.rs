@@ -7,9 +7,6 @@ use crate::table::{Bed, Pocket};
 use crate::units::Seconds;
 use glam::{DVec2, DVec3};
 
-/// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
-const D_RADIUS: f64 = 11.5 / 70.0;
-
 /// The balls in ascending order of id, if they can exist together.
 ///
 /// # Errors
@@ -136,15 +133,9 @@ pub fn may_stand(
     zone: Zone,
 ) -> bool {
     if let Some(bed) = bed {
-        let behind = place.x <= bed.head_string_x();
-        let in_zone = match zone {
-            Zone::Anywhere => true,
-            Zone::Kitchen => behind,
-            Zone::D => behind && place.distance(bed.head_spot()) <= D_RADIUS * bed.width_m,
-        };
         let over_pocket =
             pockets.iter().any(|pocket| pocket.centre.distance(place) <= pocket.radius_m);
-        if !in_zone || !bed.holds(place, radius_m) || over_pocket {
+        if !bed.in_zone(zone, place) || !bed.holds(place, radius_m) || over_pocket {
             return false;
         }
     }

@@ -241,7 +241,7 @@ impl EventDriven {
         super::Snapshot {
             time_s: at,
             balls: self.bodies.iter().map(|body| body.sample(at)).collect(),
-            cue: self.tip.as_ref().map(|tip| tip.pose(at)),
+            cue: self.tip.as_ref().map(|tip| tip.cue.pose(at)),
         }
     }
 }
@@ -294,7 +294,7 @@ impl Solver for EventDriven {
     }
 
     fn cue(&self, at: Seconds) -> Option<CuePose> {
-        self.tip.as_ref().map(|tip| tip.pose(at))
+        self.tip.as_ref().map(|tip| tip.cue.pose(at))
     }
 
     fn balls(&self) -> Vec<BallId> {
@@ -324,7 +324,7 @@ impl Solver for EventDriven {
             body.hash(hash);
         }
         if let Some(tip) = &self.tip {
-            tip.hash(hash);
+            tip.cue.hash(hash);
         }
         for (a, b, at) in &self.touching {
             hash.u64((*a as u64) << 32 | *b as u64);

@@ -263,7 +263,9 @@ impl FixedStep {
     /// The step up to which no tip comes near a ball that is at rest; the present one if it does
     /// now, `u64::MAX` if never.
     fn still_until(&self) -> u64 {
-        let Some(cue) = self.cue.as_ref().filter(|cue| cue.is_solid()) else { return u64::MAX };
+        let Some(cue) = self.cue.as_ref().filter(|cue| cue.guided.is_solid()) else {
+            return u64::MAX;
+        };
         let start = self.grid(self.step);
         if cue.stands_from().is_some_and(|end| end <= start) {
             return u64::MAX;
@@ -387,7 +389,7 @@ impl Solver for FixedStep {
     }
 
     fn cue(&self, at: Seconds) -> Option<CuePose> {
-        self.cue.as_ref().map(|cue| cue.pose(at))
+        self.cue.as_ref().map(|cue| cue.guided.pose(at))
     }
 
     fn balls(&self) -> Vec<BallId> {
@@ -422,7 +424,7 @@ impl Solver for FixedStep {
             hash.quat(body.orientation);
         }
         if let Some(cue) = &self.cue {
-            cue.hash(hash);
+            cue.guided.hash(hash);
         }
         for (a, b) in &self.touching {
             hash.u64((*a as u64) << 32 | *b as u64);

@@ -50,7 +50,7 @@ impl EventDriven {
         let flat = |feature: &Feature| matches!(feature, Feature::Plane(_) | Feature::Patch(_));
         let simple = carriers.len() == 1 && flat(&carriers[0]) && !leans;
         let stuck = (carriers.len() + usize::from(leans) > 0) && !simple;
-        self.bodies[index].held = if simple { carriers } else { Self::nothing() };
+        self.bodies[index].held = if simple { carriers } else { SmallVec::new() };
         let mover = self.bodies[index].mover(at);
         if stuck {
             self.begin_lasting(at, index);

@@ -8,7 +8,6 @@ use super::body::{Own, Report};
 use super::closing::{self, Relative};
 use super::segment::Course;
 use super::sweep;
-use super::terrain::Feature;
 use super::{EventDriven, Segment};
 use crate::physics::tolerance;
 use crate::units::Seconds;
@@ -162,10 +161,5 @@ impl EventDriven {
                 }
             }
         }
-    }
-
-    /// The features that carry a ball in flight: none.
-    pub(super) fn nothing() -> SmallVec<[Feature; 2]> {
-        SmallVec::new()
     }
 }

@@ -70,7 +70,7 @@ impl EventDriven {
         normal_speed_m_s: f64,
     ) {
         self.watch_rails(index, time_s);
-        let bit = rail_bit(rail);
+        let bit = rail.bit();
         let body = &mut self.bodies[index];
         let onset = body.clear_rails & bit != 0;
         let held = body.held_rails & bit != 0;
@@ -219,7 +219,7 @@ impl EventDriven {
         }
         self.moved = false;
         if let Some(tip) = &mut self.tip {
-            tip.new_shot();
+            tip.cue.has_struck = false;
         }
         self.tell(at, FactKind::Settled { snookered: false });
     }
@@ -387,13 +387,8 @@ fn near_rails(bed: &crate::table::Bed, position: DVec3, radius_m: f64) -> u8 {
         (Rail::Right, y + position.y),
     ] {
         if gap <= tolerance::APART_M {
-            near |= rail_bit(rail);
+            near |= rail.bit();
         }
     }
     near
-}
-
-/// The bit of a rail in a set.
-fn rail_bit(rail: Rail) -> u8 {
-    1 << rail as u8
 }

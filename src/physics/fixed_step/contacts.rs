@@ -396,8 +396,8 @@ impl FixedStep {
         let mut changed = Changed::new();
         let Some(cue) = &self.cue else { return changed };
         let (tip, velocity) = cue.tip_at(tau);
-        let direction = cue.direction(at);
-        let has_struck = cue.has_struck;
+        let direction = cue.guided.direction(at);
+        let has_struck = cue.guided.has_struck;
         changed.push(index);
 
         let position = self.bodies[index].path.at(tau);

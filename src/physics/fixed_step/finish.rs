@@ -4,7 +4,6 @@ use super::FixedStep;
 use super::body::{Body, Support};
 use super::narrow;
 use super::spatial_hash::Bounds;
-use super::tell::rail_bit;
 use crate::ball::BallPlace;
 use crate::events::FactKind;
 use crate::mesh::Surface;
@@ -127,7 +126,7 @@ impl FixedStep {
                 deepest = Some((-gap_m, normal));
             }
             if let (Surface::Cushion(rail), true) = (surface, gap_m <= tolerance::APART_M) {
-                body.near_rails |= rail_bit(rail);
+                body.near_rails |= rail.bit();
             }
             let same = |s: &Support| s.normal.dot(normal) > 1.0 - tolerance::COPLANAR;
             if gap_m <= carried && !body.supports.iter().any(same) {

@@ -265,14 +265,14 @@ impl FixedStep {
 
     /// Contacts of the tip with one ball, or with all.
     fn predict_tip(&mut self, ball: Option<usize>) {
-        let Some(cue) = self.cue.as_ref().filter(|cue| cue.is_solid()) else { return };
+        let Some(cue) = self.cue.as_ref().filter(|cue| cue.guided.is_solid()) else { return };
         let reach = cue.step_bounds();
         let balls = ball.map_or(0..self.bodies.len(), |ball| ball..ball + 1);
         let mut found: smallvec::SmallVec<[(Seconds, usize); 4]> = smallvec::SmallVec::new();
         let mut tests = 0;
         for index in balls {
             let body = &self.bodies[index];
-            if body.solid() && !cue.is_blind_to(index) && body.bounds.overlap(&reach) {
+            if body.solid() && !cue.guided.is_blind_to(index) && body.bounds.overlap(&reach) {
                 tests += 1;
                 if let Some(tau) = cue.first_contact(&body.path, body.ball.radius_m, self.h) {
                     found.push((tau, index));

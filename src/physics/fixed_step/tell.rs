@@ -64,7 +64,7 @@ impl FixedStep {
         position_m: DVec3,
         normal_speed_m_s: f64,
     ) {
-        let bit = rail_bit(rail);
+        let bit = rail.bit();
         let body = &mut self.bodies[index];
         let onset = body.clear_rails & bit != 0;
         let held = body.held_rails & bit != 0;
@@ -155,7 +155,7 @@ impl FixedStep {
             }
         }
         if let Some(cue) = &mut self.cue {
-            cue.has_struck = false;
+            cue.guided.has_struck = false;
         }
         self.tell(now, FactKind::Settled { snookered: false });
     }
@@ -166,9 +166,4 @@ impl FixedStep {
         body.clear_rails = !body.near_rails;
         body.held_rails = 0;
     }
-}
-
-/// The bit of a rail in a set.
-pub(super) fn rail_bit(rail: Rail) -> u8 {
-    1 << rail as u8
 }

@@ -1,6 +1,6 @@
 //! A rigid cushion with the cloth under the ball: the published model, integrated over the impulse.
 
-use super::mathavan_2014::Bed;
+use super::mathavan_2014::{Bed, share_of_step};
 use super::{Impact, Mover};
 use crate::physics::Contact;
 use glam::DVec3;
@@ -51,15 +51,8 @@ pub fn bounce(ball: &mut Mover, normal: DVec3, bed: Bed, law: Contact) -> (Impac
         let before = ball.velocity.dot(normal);
         let rates = nose.midpoint(ball, step);
         let after = nose.pushed(ball, rates, step).velocity.dot(normal);
-        let share = match goal {
-            None if after >= 0.0 => before / (before - after),
-            None => 1.0,
-            Some(goal) => {
-                let (left, gain) = ((goal - work) / step, after - before);
-                let root = (before * before + 2.0 * gain * left).max(0.0).sqrt();
-                if before + root > 0.0 { (2.0 * left / (before + root)).min(1.0) } else { 1.0 }
-            }
-        };
+        let left = goal.map(|goal| (goal - work) / step);
+        let share = share_of_step(before, after, left);
         let next = nose.pushed(ball, rates, step * share);
         work += 0.5 * (before + next.velocity.dot(normal)).abs() * step * share;
         for (impact, rate, contact) in

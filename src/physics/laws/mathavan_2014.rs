@@ -67,16 +67,8 @@ pub fn collide(
         let next = contact.pushed(&state, &rates, step);
         let after = next.slip(normal).dot(normal);
 
-        let share = match goal {
-            None if after >= 0.0 => before / (before - after),
-            None => 1.0,
-            // W(f) = P (u f + (u′ − u) f²/2) reaches what is left of the goal.
-            Some(goal) => {
-                let (left, gain) = ((goal - work) / step, after - before);
-                let root = (before * before + 2.0 * gain * left).max(0.0).sqrt();
-                if before + root > 0.0 { (2.0 * left / (before + root)).min(1.0) } else { 1.0 }
-            }
-        };
+        let left = goal.map(|goal| (goal - work) / step);
+        let share = share_of_step(before, after, left);
         let next = contact.pushed(&state, &rates, step * share);
         let passed = next.slip(normal).dot(normal);
         work += 0.5 * (before + passed).abs() * step * share;
@@ -94,6 +86,22 @@ pub fn collide(
     impacts.0.sticks = contact.tangential(&state).length() < 1e-9 * approach.abs();
     (*a, *b) = (state.a, state.b);
     impacts
+}
+
+/// How much of a step of impulse is taken: to the end of the compression, or of the restitution.
+///
+/// `before` and `after` are the normal speeds at the step's ends [m/s]; `left` is the work that the
+/// restitution still has to do over the step's impulse [m/s], none while it compresses. W(f) =
+/// P (u f + (u′ − u) f²/2) reaches what is left of the goal.
+pub(super) fn share_of_step(before: f64, after: f64, left: Option<f64>) -> f64 {
+    match left {
+        None if after >= 0.0 => before / (before - after),
+        None => 1.0,
+        Some(left) => {
+            let root = (before * before + 2.0 * (after - before) * left).max(0.0).sqrt();
+            if before + root > 0.0 { (2.0 * left / (before + root)).min(1.0) } else { 1.0 }
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
