@@ -4,6 +4,8 @@
 //! within the tick (all are asked at once, the answers taken in order of registration). Sinks get
 //! theirs by `try_send` on a bounded channel: a sink that lags loses its own mail, which is
 //! counted in [`Sink::dropped`], and delays nobody.
+//!
+//! `tests/bench/bus/README.md` holds what this costs beside other ways to send the same events.
 
 use crate::participant::{Ask, Mail, Seat};
 use hapticbillard::event_manager::{EventManager as Core, QueueFull};
