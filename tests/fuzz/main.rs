@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// Random facts for the referee.
+mod facts;
 /// Texts that come from outside: scenes, meshes, tables, catalogues.
 mod files;
 /// Seeds from the environment, and ways to spoil a text.

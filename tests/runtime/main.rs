@@ -5,6 +5,9 @@
 
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// Random facts for the referee, as the fuzz tests of the core make them.
+#[path = "../fuzz/facts.rs"]
+mod facts;
 /// Files: sizes, kinds, writing whole.
 mod files;
 /// Who stands in for whom.
@@ -16,8 +19,12 @@ mod outside;
 mod pictures;
 /// Threads and memory, counted from outside.
 mod resources;
+/// Random events against the actor of the referee, through its mailbox.
+mod rule_actor;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// Who dies and what then.
+mod supervision;
 /// A whole game in a window.
 #[cfg(feature = "renderer")]
 mod whole_game;

@@ -96,7 +96,8 @@ async fn all_ticks(manager: EventManager, events: u64) -> (Duration, Vec<u64>) {
     for tick in 0..events / PER_TICK {
         let facts = (tick * PER_TICK..(tick + 1) * PER_TICK).map(fact).collect();
         let frame = Frame::new();
-        let seal = Seal { tick: Tick(tick + 1), frame, facts, table: table.clone() };
+        let (health, table) = (Vec::new(), table.clone());
+        let seal = Seal { tick: Tick(tick + 1), frame, facts, health, table };
         last = Some(manager.ask(seal).await.unwrap().0.unwrap());
     }
     let elapsed = start.elapsed();
