@@ -42,7 +42,7 @@ pub enum RunError {
         reason: String,
     },
     /// The recording cannot be written, or not to its end.
-    #[error("the recording is not whole: {0}")]
+    #[error("the recording cannot be written: {0}")]
     Recording(String),
     /// The runtime itself cannot start.
     #[error("the actor runtime cannot start: {0}")]

@@ -32,7 +32,13 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
 
 /// Opens a file that is read line by line, however long it is.
 pub fn open_lines(path: &Path) -> Result<File, Error> {
-    File::open(path).map_err(|reason| Error::Read { path: path.to_path_buf(), reason })
+    let failed = |reason| Error::Read { path: path.to_path_buf(), reason };
+    let file = File::open(path).map_err(failed)?;
+    // A pipe may be read, a folder cannot be.
+    if file.metadata().map_err(failed)?.is_dir() {
+        return Err(Error::NoFile { path: path.to_path_buf() });
+    }
+    Ok(file)
 }
 
 /// Writes a file whole: first under another name, then renamed.

@@ -10,6 +10,8 @@ mod cli;
 mod facts;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// What `--json` prints, and what options change.
+mod json;
 /// Who stands in for whom.
 mod mocks;
 /// What enters from outside: pauses, wrong files.
@@ -17,6 +19,9 @@ mod outside;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;
+/// Recordings of games that were interrupted or killed.
+#[cfg(unix)]
+mod recordings;
 /// Threads and memory, counted from outside.
 mod resources;
 /// Random events against the actor of the referee, through its mailbox.
@@ -25,6 +30,11 @@ mod rule_actor;
 mod same_bits;
 /// Who dies and what then.
 mod supervision;
+/// The progress bar.
+#[cfg(unix)]
+mod terminal;
 /// A whole game in a window.
 #[cfg(feature = "renderer")]
 mod whole_game;
+/// Wrong input to every command.
+mod wrong_input;
