@@ -11,10 +11,10 @@ use serde::{Deserialize, Serialize};
 fn with_line(text: &str, error: &toml::de::Error) -> String {
     let message = one_line(error.message(), 400);
     let before = error.span().and_then(|span| text.get(..span.start));
-    match before {
-        Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
-        None => message,
-    }
+    let Some(before) = before else { return message };
+    let index = before.matches('\n').count();
+    let written = one_line(text.lines().nth(index).unwrap_or_default().trim(), 60);
+    format!("line {}, '{written}': {message}", index + 1)
 }
 
 /// Dimensions of a pool table. Heights are above the cloth unless the name says otherwise.

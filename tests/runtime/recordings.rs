@@ -1,7 +1,7 @@
 //! Recordings of games that were ended from outside, and of those that were killed.
 
 use super::cli::{folder, lines, program, text};
-use rustix::process::{Pid, Signal, kill_process};
+use rustix::process::{Pid, Signal, WaitOptions, kill_process, waitpid};
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
@@ -39,15 +39,30 @@ fn verify(file: &Path) -> serde_json::Value {
     lines(&replayed.stdout).pop().unwrap()["summary"].clone()
 }
 
+/// Whether it is the recording of a game that has begun and not ended.
+fn is_under_way(path: &Path) -> bool {
+    let is_draft = path.extension().is_some_and(|extension| extension == "part");
+    is_draft && fs::read_to_string(path).is_ok_and(|text| text.contains("\n{\"hash\""))
+}
+
 /// Plays many games into `folder` and sends a signal while one is under way.
 fn match_that_gets(signal: Signal, name: &str) -> Output {
     let folder = folder(name);
     let games = ["match", "--games", "5000", "--seed", "3", "--record", folder.to_str().unwrap()];
     let mut child = start(&games);
-    let file = folder.join("game_0002.jsonl");
-    let draft = folder.join("game_0002.jsonl.part");
-    wait_for(&file, &draft, 40, &mut child);
+    // It is made to stand still to look whether a game is under way.
+    loop {
+        send(&child, Signal::STOP);
+        let stopped = waitpid(Some(Pid::from_child(&child)), WaitOptions::UNTRACED).unwrap();
+        assert!(stopped.unwrap().1.stopped(), "it ended before it was stopped");
+        if fs::read_dir(&folder).unwrap().any(|entry| is_under_way(&entry.unwrap().path())) {
+            break;
+        }
+        send(&child, Signal::CONT);
+        std::thread::yield_now();
+    }
     send(&child, signal);
+    send(&child, Signal::CONT);
     let output = child.wait_with_output().unwrap();
 
     let (mut whole, mut cut_off) = (0, 0);
@@ -55,8 +70,7 @@ fn match_that_gets(signal: Signal, name: &str) -> Output {
         let path = entry.unwrap().path();
         let is_whole = path.extension().is_some_and(|extension| extension == "jsonl");
         // A file that was created a moment ago may be without its header still.
-        let has_hash = fs::read_to_string(&path).unwrap().contains("\n{\"hash\"");
-        if !is_whole && !has_hash {
+        if !is_whole && !is_under_way(&path) {
             continue;
         }
         let summary = verify(&path);
