@@ -96,6 +96,9 @@ impl Hud {
         } else if let Some(turn) = board.turn.as_ref().filter(|_| !board.is_rolling) {
             hud.message.push(texts.turn(turn));
         }
+        if board.is_unrecorded {
+            hud.message.push(words.get("not_recorded"));
+        }
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
             hud.tip = Some(TipDial {
