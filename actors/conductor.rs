@@ -82,6 +82,8 @@ pub struct Conductor {
     primed: bool,
     /// What entered while time stood still: it is due in the first tick after that.
     held: Frame,
+    /// Whoever acts would rather not wait.
+    hurried: bool,
     last: Last,
     verified: u64,
 }
@@ -103,6 +105,7 @@ impl Conductor {
             next_frame: None,
             primed: false,
             held: Frame::new(),
+            hurried: false,
             last,
             verified: 0,
         }
@@ -117,6 +120,8 @@ pub struct Step;
 pub enum Progress {
     /// It goes on.
     Running,
+    /// It goes on, and whoever acts would rather not wait.
+    Hurried,
     /// Time stands still.
     Paused,
     /// It is over.
@@ -202,7 +207,7 @@ impl Conductor {
             Next::Finished(end) => return self.finish(end).await,
             Next::Advance { .. } | Next::Seal { .. } => {}
         }
-        Ok(Progress::Running)
+        Ok(if self.hurried { Progress::Hurried } else { Progress::Running })
     }
 
     async fn inflow(&mut self, tick: Tick) -> Result<Inflow, RunError> {
@@ -211,6 +216,7 @@ impl Conductor {
         };
         let inflow = input.ask(FrameOf(tick)).send().await.map_err(|e| self.gone("input", e))?.0;
         self.next_frame = inflow.next;
+        self.hurried = inflow.hurried;
         Ok(inflow)
     }
 

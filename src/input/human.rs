@@ -10,7 +10,8 @@
 //! | Shift held | a tenth of everything | a tenth | |
 //!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, Escape or `p` pauses, and `q` in a pause quits.
+//! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
+//! somebody else holds `f`, and time runs faster.
 
 use super::camera::{Camera, Viewpoint};
 use super::feel::{
@@ -141,7 +142,14 @@ impl Human {
         let frame = if self.was_paused { Frame::new() } else { std::mem::take(&mut self.pending) };
         self.was_paused = self.paused;
         // A person may act in any tick.
-        Inflow { frame, next: Some(tick.after(1)), paused: self.paused, quit }
+        let next = Some(tick.after(1));
+        Inflow { frame, next, paused: self.paused, hurried: self.is_hurried(), quit }
+    }
+
+    /// Whether the player would rather not wait. Whoever holds the cue has all the time there is.
+    fn is_hurried(&self) -> bool {
+        let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
+        waits && !self.paused && self.held.has(Key::Letter('f'))
     }
 
     /// What the picture shows of the player now.
@@ -187,7 +195,7 @@ impl Human {
                 self.held.button(button, down);
                 match (button, down) {
                     (Button::Left, true) => self.press(),
-                    (Button::Left, false) => self.let_go(),
+                    (Button::Left, false) => self.release(std::mem::take(up)),
                     _ => {}
                 }
             }
@@ -349,7 +357,16 @@ impl Human {
         }
     }
 
-    /// The left button is let go, or counts as such: a stroke that has met nothing is none.
+    /// The left button is let go, after a movement `up` in this tick. The tip lags the hand: a
+    /// hand that has gone through the ball has made its stroke, and the tip follows.
+    fn release(&mut self, up: f64) {
+        match &mut self.stage {
+            Stage::Stroking(tip) if tip.is_hand_through(up) => tip.let_go(up),
+            _ => self.let_go(),
+        }
+    }
+
+    /// The cue is held no more, as far as a stroke goes: one that has met nothing is none.
     fn let_go(&mut self) {
         if matches!(self.stage, Stage::Stroking(_)) {
             self.stage = Stage::Aiming;
@@ -363,6 +380,11 @@ impl Human {
     fn move_tip(&mut self, tick: Tick, up: f64) {
         let contact = self.contact();
         let Stage::Stroking(tip) = &mut self.stage else { return };
+        if tip.has_arrived_alone() {
+            // It met nothing.
+            self.let_go();
+            return;
+        }
         if let Some(stretch) = tip.step(up) {
             let path = stroke_path(&self.aim, contact, stretch, tick.start_s());
             self.path = Some(path.clone());

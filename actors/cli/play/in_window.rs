@@ -152,6 +152,7 @@ impl FrameSource for Spectator {
             frame: recorded.frame,
             next: own.next,
             paused: own.paused,
+            hurried: own.hurried,
             quit: own.quit || recorded.quit,
         }
     }
