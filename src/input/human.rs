@@ -24,7 +24,7 @@ use super::tip::{Tip, address_path, stroke_path};
 use super::{Button, HumanMode, HumanView, Key, RawInput, sight};
 use crate::ai::withdrawal;
 use crate::ball::POOL_RADIUS_M;
-use crate::cue::{Aim, CuePath};
+use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{
     Command, Event, Fact, FactKind, MenuAction, Source, Topic, Topics, Turn, Zone,
 };
@@ -58,6 +58,9 @@ pub struct Human {
     players: Vec<PlayerId>,
     table: Arc<Table>,
     radius_m: f64,
+    tip_radius_m: f64,
+    /// Where the cue ball lay at first: it is put back there where no bed has a head spot [m].
+    tee: DVec2,
     /// The table as it was last seen.
     seen: Arc<Snapshot>,
 
@@ -94,6 +97,8 @@ impl Human {
             players,
             table,
             radius_m: POOL_RADIUS_M,
+            tip_radius_m: TIP_RADIUS_M,
+            tee: DVec2::ZERO,
             seen: Arc::default(),
             stage: Stage::Waiting,
             turn: None,
@@ -118,6 +123,13 @@ impl Human {
     #[must_use]
     pub fn with_ball_radius(mut self, radius_m: f64) -> Self {
         self.radius_m = radius_m;
+        self
+    }
+
+    /// The same with a tip of another radius [m].
+    #[must_use]
+    pub fn with_tip_radius(mut self, radius_m: f64) -> Self {
+        self.tip_radius_m = radius_m;
         self
     }
 
@@ -402,7 +414,7 @@ impl Human {
     }
 
     fn contact(&self) -> DVec3 {
-        self.aim.tip_at_contact(self.centre, self.radius_m)
+        self.aim.tip_of_radius_at_contact(self.tip_radius_m, self.centre, self.radius_m)
     }
 
     fn follow_with_camera(&mut self) {
@@ -476,7 +488,7 @@ impl Human {
         match zone {
             Some(zone) => {
                 let bed = self.table.bed.as_ref();
-                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed));
+                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed, self.tee));
             }
             None => self.address(),
         }
@@ -541,6 +553,7 @@ impl Participant for Human {
 
     fn start(&mut self, table: &Snapshot) -> Outcome {
         self.seen = Arc::new(table.clone());
+        self.tee = sight::cue_ball(table).map_or(DVec2::ZERO, DVec3::truncate);
         Outcome::default()
     }
 
