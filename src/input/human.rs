@@ -423,7 +423,8 @@ impl Human {
             Stage::Placing(_) => Viewpoint::Bird,
             _ if self.is_bird => Viewpoint::Bird,
             Stage::Waiting => Viewpoint::Overview,
-            Stage::Aiming | Stage::Stroking(_) | Stage::Struck => behind_cue,
+            Stage::Aiming | Stage::Stroking(_) => behind_cue,
+            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
         };
         self.camera.go_to(viewpoint);
     }
