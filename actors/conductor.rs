@@ -85,6 +85,8 @@ pub struct Conductor {
     held: Frame,
     /// What the runtime has to tell about itself, with the next mail.
     health: Vec<Health>,
+    /// Whoever acts would rather not wait.
+    hurried: bool,
     last: Last,
     verified: u64,
 }
@@ -107,6 +109,7 @@ impl Conductor {
             primed: false,
             held: Frame::new(),
             health: Vec::new(),
+            hurried: false,
             last,
             verified: 0,
         }
@@ -121,6 +124,8 @@ pub struct Step;
 pub enum Progress {
     /// It goes on.
     Running,
+    /// It goes on, and whoever acts would rather not wait.
+    Hurried,
     /// Time stands still.
     Paused,
     /// It is over.
@@ -224,7 +229,7 @@ impl Conductor {
             Next::Finished(end) => return self.finish(end).await,
             Next::Advance { .. } | Next::Seal { .. } => {}
         }
-        Ok(Progress::Running)
+        Ok(if self.hurried { Progress::Hurried } else { Progress::Running })
     }
 
     async fn inflow(&mut self, tick: Tick) -> Result<Inflow, RunError> {
@@ -233,6 +238,7 @@ impl Conductor {
         };
         let inflow = input.ask(FrameOf(tick)).send().await.map_err(|e| self.gone("input", e))?.0;
         self.next_frame = inflow.next;
+        self.hurried = inflow.hurried;
         Ok(inflow)
     }
 

@@ -155,7 +155,8 @@ impl LoadedScene {
     /// in the scene's own folder or below.
     pub fn read_mesh(&self, file: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else {
-            return Err(String::from("a shipped scene has no mesh files"));
+            let shipped = shipped::mesh(file).map(String::from);
+            return shipped.ok_or_else(|| String::from("no shipped mesh has this name"));
         };
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
         if !Path::new(file).components().all(inside) {

@@ -327,7 +327,7 @@ impl FrameSource for RecordedInput {
             Some(last) if last <= tick => Some(last.after(1)),
             _ => recording.next_after(tick),
         };
-        Inflow { frame: recording.frame(tick), next, paused: false, quit }
+        Inflow { frame: recording.frame(tick), next, quit, ..Inflow::default() }
     }
 }
 

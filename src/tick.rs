@@ -101,6 +101,9 @@ pub struct Inflow {
     pub next: Option<Tick>,
     /// Whether time stands still; not part of the game.
     pub paused: bool,
+    /// Whether whoever acts would rather not wait: a paced game may run faster. Not part of the
+    /// game either.
+    pub hurried: bool,
     /// Somebody quit: the game ends before this tick.
     pub quit: bool,
 }

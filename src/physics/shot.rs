@@ -4,7 +4,7 @@ use super::event_driven::Segment;
 use super::fixed_step::{Knot, between};
 use super::{Ledger, PhysicsError, Simulation, Work};
 use crate::ball::{BallPlace, BallState};
-use crate::cue::{CuePath, CuePiece, TIP_RADIUS_M};
+use crate::cue::{CuePath, CuePiece};
 use crate::events::Fact;
 use crate::ids::BallId;
 use crate::one_line::without_place;
@@ -88,13 +88,14 @@ impl Strike {
         DVec3::new(cos_e * cos_a, cos_e * sin_a, -sin_e)
     }
 
-    /// The path of the tip that makes this stroke at a ball at `ball` [m] of radius `radius_m`,
-    /// from
-    /// `start_s` on: straight along the shaft at constant speed, and braked after the contact.
+    /// The path of a tip of radius `tip_radius_m` that makes this stroke at a ball at `ball` [m] of
+    /// radius `radius_m`, from `start_s` on: straight along the shaft at constant speed, and braked
+    /// after the contact.
     pub fn path(
         &self,
         ball: DVec3,
         radius_m: f64,
+        tip_radius_m: f64,
         start_s: Seconds,
     ) -> Result<CuePath, PhysicsError> {
         let Strike { speed_m_s: speed, side_offset: side, height_offset: height, .. } = *self;
@@ -123,7 +124,7 @@ impl Strike {
         let behind = (1.0 - offset * offset).sqrt();
         // From the ball's centre to where the tip's centre is at the contact.
         let outwards = right * side + up * height - direction * behind;
-        let contact = ball + outwards * (radius_m + TIP_RADIUS_M);
+        let contact = ball + outwards * (radius_m + tip_radius_m);
 
         let run_up_s = RUN_UP_M / speed;
         let velocity = direction * speed;
