@@ -31,7 +31,8 @@ impl EventDriven {
         if weighs && body.ball.flags.collide && self.parameters.gravity_m_s2 > 0.0 {
             let reach = radius + tolerance::START_OVERLAP_M;
             for (feature, normal, distance) in self.terrain.near(segment.position, reach) {
-                if normal.z > 1e-9 && segment.velocity.dot(normal) <= tolerance::HOP_M_S {
+                // What falls on it or leaves it does not lie on it.
+                if normal.z > 1e-9 && segment.velocity.dot(normal).abs() <= tolerance::HOP_M_S {
                     carriers.push(feature);
                     // It lies on the first exactly.
                     if carriers.len() == 1 {

@@ -6,9 +6,9 @@
 
 use super::closing::{self, Relative};
 use super::segment::{Course, Segment};
-use super::terrain::{Feature, Terrain};
-use crate::physics::Work;
+use super::terrain::{Feature, Listed, Terrain};
 use crate::physics::fixed_step::spatial_hash::Bounds;
+use crate::physics::{Work, tolerance};
 use crate::units::Seconds;
 use glam::{DVec3, IVec3};
 
@@ -167,6 +167,10 @@ impl Walk<'_> {
         let velocity = self.segment.velocity_at(now);
         let control = position + velocity * (0.5 * length);
         let end = self.segment.position_at(exit);
+        // The path lies within the triangle of its ends and its control point.
+        let middle = 0.5 * (position + end);
+        let half = position.distance_squared(middle).max(control.distance_squared(middle)).sqrt();
+        let reach_m = half + self.radius_m + tolerance::SUPPORT_M;
         let bounds = Bounds::swept(position, end, self.radius_m).join(&Bounds::swept(
             control,
             control,
@@ -182,15 +186,20 @@ impl Walk<'_> {
 
         for group in self.terrain.groups_in(cell) {
             let feature = Feature::Patch(group.patch);
-            if !group.bounds.overlap(&slice.bounds) || self.is_held(feature) {
+            if !group.around.within(middle, reach_m)
+                || !group.bounds.overlap(&slice.bounds)
+                || self.is_held(feature)
+            {
                 continue;
             }
             if let Some((time, normal)) = self.patch(group, &slice, work) {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.edges_in(cell) {
-            if !self.terrain.edge_bounds(*number).overlap(&slice.bounds) {
+        for Listed { number, around } in self.terrain.edges_in(cell) {
+            if !around.within(middle, reach_m)
+                || !self.terrain.edge_bounds(*number).overlap(&slice.bounds)
+            {
                 continue;
             }
             let feature = Feature::Edge(*number);
@@ -206,14 +215,13 @@ impl Walk<'_> {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.corners_in(cell) {
-            let point = self.terrain.corners[*number as usize].point;
-            let point_box = Bounds { min: point, max: point };
+        for Listed { number, around } in self.terrain.corners_in(cell) {
             let feature = Feature::Corner(*number);
-            if !point_box.overlap(&slice.bounds) || self.is_held(feature) {
+            if !around.within(middle, reach_m) || self.is_held(feature) {
                 continue;
             }
             work.face_tests += 1;
+            let point = around.middle;
             let motion = slice.relative_to(point);
             if let Some(time) = closing::spheres(&motion, self.radius_m, slice.length) {
                 let normal = (slice.at(time) - point).normalize_or(DVec3::Z);
