@@ -26,7 +26,7 @@ impl EventDriven {
         let centre = body.segment.position_at(at);
         let mut touched = Touched::new();
         let on_main = body.held.len() == 1 && body.held[0] == self.terrain.main_patch();
-        let alone = self.terrain.leap(self.terrain.cell_of(centre), on_main) > 0;
+        let alone = !self.terrain.block_at(self.terrain.place_of(centre), on_main).lists();
         if alone && self.terrain.planes.is_empty() {
             return touched;
         }
