@@ -17,6 +17,9 @@ use crate::table::{Bed, Plane, Pocket, Table};
 use glam::{DVec3, IVec3};
 use smallvec::SmallVec;
 
+/// Triangles of one patch overlap by this, so that no foot falls between them [m].
+const SEAM_M: f64 = 1e-12;
+
 /// A part of the terrain that a ball can touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Feature {
@@ -81,6 +84,33 @@ pub struct Group {
     count: u32,
 }
 
+/// A side of a triangle, as the line that a foot inside of the triangle is not beyond.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Unit vector in the plane of the triangle.
+    inwards: DVec3,
+    /// Distance of the side from the origin along it [m].
+    offset: f64,
+}
+
+impl Side {
+    /// How far `point` is inside [m].
+    fn inside_m(&self, point: DVec3) -> f64 {
+        point.dot(self.inwards) - self.offset
+    }
+}
+
+/// The sides of a triangle that has an area.
+fn sides_of(triangle: &[DVec3; 3]) -> [Side; 3] {
+    let [a, b, c] = *triangle;
+    [(a, b, c), (b, c, a), (c, a, b)].map(|(from, to, third)| {
+        let along = (to - from).normalize_or(DVec3::X);
+        let across = third - from;
+        let inwards = (across - along * across.dot(along)).normalize_or(DVec3::ZERO);
+        Side { inwards, offset: inwards.dot(from) }
+    })
+}
+
 /// A block of cells.
 #[derive(Debug, Clone, Copy)]
 pub struct Block {
@@ -127,6 +157,8 @@ pub struct Terrain {
     /// Nothing is below this [m].
     pub lowest_m: f64,
     triangles: Vec<[DVec3; 3]>,
+    /// The sides of each triangle.
+    sides: Vec<[Side; 3]>,
     /// The patch of each triangle.
     faces: Vec<u32>,
     /// The largest ball that the grid is made for [m].
@@ -171,6 +203,7 @@ impl Terrain {
         terrain.lowest_m = of_vertices.chain(of_planes).fold(0.0, f64::min);
         if !table.mesh.faces.is_empty() {
             terrain.faces = patches::merge(&table.mesh, &mut terrain);
+            terrain.sides = terrain.triangles.iter().map(sides_of).collect();
         }
         terrain.fill_grid(radius_m);
         terrain
@@ -185,6 +218,7 @@ impl Terrain {
             corners: self.corners.clone(),
             pockets: self.pockets.clone(),
             triangles: self.triangles.clone(),
+            sides: self.sides.clone(),
             faces: self.faces.clone(),
             bed: self.bed,
             lowest_m: self.lowest_m,
@@ -244,13 +278,9 @@ impl Terrain {
 
     /// Whether the foot of the perpendicular from `point` lies in one of the faces of a group.
     pub fn holds(&self, group: &Group, point: DVec3) -> bool {
-        let normal = self.patches[group.patch as usize].normal;
         let range = group.first as usize..(group.first + group.count) as usize;
         self.listed_triangles[range].iter().any(|triangle| {
-            let [a, b, c] = self.triangles[*triangle as usize];
-            let side = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal);
-            let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
-            (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0)
+            self.sides[*triangle as usize].iter().all(|side| side.inside_m(point) >= -SEAM_M)
         })
     }
 

@@ -203,13 +203,9 @@ impl Terrain {
         if height.abs() > space.along(patch.normal) + space.reach_m {
             return false;
         }
-        let [a, b, c] = self.triangles[triangle as usize];
-        [(a, b, c), (b, c, a), (c, a, b)].into_iter().all(|(from, to, third)| {
-            let along = (to - from).normalize_or(DVec3::ZERO);
-            let across = third - from;
-            let inwards = (across - along * across.dot(along)).normalize_or(DVec3::ZERO);
-            (space.middle - from).dot(inwards) >= -space.along(inwards) - BESIDE_M
-        })
+        self.sides[triangle as usize]
+            .iter()
+            .all(|side| side.inside_m(space.middle) >= -space.along(side.inwards) - BESIDE_M)
     }
 
     /// Whether a ball with its centre in `space` can touch an edge, no face being nearer.
