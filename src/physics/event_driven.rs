@@ -19,6 +19,8 @@ mod course;
 mod lasting;
 mod motion;
 mod predict;
+#[cfg(test)]
+mod resegment;
 mod segment;
 mod sweep;
 mod tell;
@@ -43,7 +45,7 @@ use tip::Tip;
 
 /// Events of one ball per second of simulated time beyond which something is stuck; a ball in the
 /// tightest of wedges makes a tenth of it.
-const EVENTS_PER_SECOND_MAX: u64 = 20_000;
+const EVENTS_PER_SECOND_MAX: u64 = 200_000;
 
 /// The solver.
 #[derive(Debug, Clone)]
@@ -66,6 +68,8 @@ pub struct EventDriven {
     touching: Vec<(usize, usize, Seconds)>,
     /// Next step of the balls in lasting contact [s].
     lasting_at: Seconds,
+    /// Balls that begin a lasting contact in the present event.
+    begins: predict::Changed,
     /// Something moved since everything last settled.
     moved: bool,
     /// Since when everything is at rest [s].
@@ -135,6 +139,7 @@ impl EventDriven {
             told: Vec::new(),
             touching: Vec::new(),
             lasting_at: f64::INFINITY,
+            begins: predict::Changed::new(),
             moved: false,
             rest_since: None,
             ledger: Ledger::default(),

@@ -4,7 +4,7 @@ use super::event_driven::EventDriven;
 use super::fixed_step::{CELL_M, FixedStep};
 use super::shot::{Shot, Strike, Tracks};
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Snapshot, Solver, SolverKind, Work,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Snapshot, Solver, SolverKind, Work,
 };
 use crate::ball::{Ball, BallState, Motion};
 use crate::events::{Command, Fact, FactSet, Topic};
@@ -93,6 +93,9 @@ impl Simulation {
         parameters: Parameters,
     ) -> Result<Self, PhysicsError> {
         let engine = match settings.solver {
+            SolverKind::EventDriven if settings.profile == Profile::Paper2009 => {
+                return Err(PhysicsError::ProfileNeedsSteps);
+            }
             SolverKind::EventDriven => {
                 let solver = EventDriven::new(table, balls, parameters)?;
                 Engine::EventDriven(Box::new(solver))

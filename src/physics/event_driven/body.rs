@@ -60,6 +60,8 @@ pub struct Body {
     pub held_rails: u8,
     /// Since when contacts are counted, and how many there were.
     pub busy: (Seconds, u32),
+    /// The part of the terrain that it met last.
+    pub met: Option<Feature>,
     /// It sleeps on several supports or on other balls, and wakes when one of them changes.
     pub leans: bool,
     /// In lasting contact: since when it lies nearly still [s].
@@ -99,6 +101,7 @@ impl Body {
             clear_rails: 0,
             held_rails: 0,
             busy: (0.0, 0),
+            met: None,
             leans: false,
             quiet_since: 0.0,
             target_j: 0.0,

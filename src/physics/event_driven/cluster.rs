@@ -147,6 +147,7 @@ impl EventDriven {
             if !changed.contains(index) {
                 continue;
             }
+            self.bodies[*index].met = None;
             if self.is_busy(at, *index) && (self.pressed(at, *index) || !faces.is_empty()) {
                 self.begin_lasting_with(at, *index, &movers[place], DVec3::ZERO);
             } else {

@@ -163,8 +163,11 @@ impl EventDriven {
         approach: f64,
         restitution: f64,
     ) {
-        let busy = self.is_busy(at, index);
         let (feature, normal) = (meeting.feature, meeting.normal);
+        // Hops on one surface are a series that ends by itself.
+        let hops = self.bodies[index].held.is_empty()
+            && self.bodies[index].met.replace(feature) == Some(feature);
+        let busy = !hops && self.is_busy(at, index);
         let radius = self.bodies[index].ball.radius_m;
         let gravity = self.parameters.gravity_m_s2;
         let carries = normal.z > 1e-9 && self.bodies[index].ball.flags.gravity && gravity > 0.0;
@@ -274,6 +277,8 @@ impl EventDriven {
         }
 
         self.work.contacts += 1;
+        self.bodies[a].met = None;
+        self.bodies[b].met = None;
         let (mut p, mut q) = movers;
         let approach = -(p.surface_velocity(normal) - q.surface_velocity(-normal)).dot(normal);
         let slip = p.surface_velocity(normal) - q.surface_velocity(-normal);

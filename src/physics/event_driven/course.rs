@@ -54,7 +54,7 @@ impl EventDriven {
         self.bodies[index].held = if simple { carriers } else { SmallVec::new() };
         let mover = self.bodies[index].mover(at);
         if stuck {
-            self.begin_lasting(at, index);
+            self.begins.push(index);
         } else {
             self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
         }
@@ -124,7 +124,7 @@ impl EventDriven {
         }
         let Some((normal, law)) = self.support(index, at) else {
             self.bodies[index].turn_into(Segment { course: Course::Lasting, swing: None, ..start });
-            self.begin_lasting(at, index);
+            self.begins.push(index);
             return;
         };
         let lift = start.velocity.dot(normal);
@@ -153,7 +153,7 @@ impl EventDriven {
                     swing: None,
                     ..start.segment
                 });
-                self.begin_lasting(at, index);
+                self.begins.push(index);
             }
         }
     }
@@ -207,7 +207,7 @@ impl EventDriven {
                     swing: None,
                     ..state
                 });
-                self.begin_lasting(at, index);
+                self.begins.push(index);
             }
         }
         self.predict(at, &[index]);

@@ -51,31 +51,41 @@ impl EventDriven {
             swing: None,
             ..from
         });
-        self.begin_lasting(at, index);
+        self.begins.push(index);
     }
 
-    /// A ball goes on in lasting contact: its first piece, and that of all that lean on it or that
-    /// it leans on, up to the next step of all.
-    pub(super) fn begin_lasting(&mut self, at: Seconds, index: usize) {
+    /// The first piece of the balls that begin a lasting contact now, and of all that lean on them
+    /// or that they lean on, up to the next step of all. Adds them to the balls that changed.
+    ///
+    /// It waits until each of them has the velocity that the event gave it.
+    pub(super) fn begin_pieces(&mut self, at: Seconds, changed: &mut Changed) {
+        if self.begins.is_empty() {
+            return;
+        }
         let step = tolerance::LASTING_STEP_S;
         let mut next = (libm::floor(at / step) + 1.0) * step;
         if next - at < 1e-9 {
             next += step;
         }
-        let mut group = Changed::from_slice(&[index]);
+        let mut group = core::mem::take(&mut self.begins);
+        group.sort_unstable();
+        group.dedup();
+        for index in &group {
+            self.bodies[*index].quiet_since = at;
+            self.bodies[*index].target_j = f64::INFINITY;
+        }
         self.join_leaning(at, &mut group);
         for index in &group {
             self.cut_lasting(at, *index);
-            self.bodies[*index].quiet_since = at;
-            self.bodies[*index].target_j = f64::INFINITY;
         }
         self.pieces(at, &group, next);
         if group.iter().any(|index| self.bodies[*index].segment.course == Course::Lasting) {
             self.lasting_at = self.lasting_at.min(next);
         }
-        group.retain(|joined| *joined != index);
-        if !group.is_empty() {
-            self.predict(at, &group);
+        for index in group {
+            if !changed.contains(&index) {
+                changed.push(index);
+            }
         }
     }
 
@@ -91,7 +101,10 @@ impl EventDriven {
                 let line = it.segment.position_at(at) - centre;
                 let leans = line.z.abs() > 1e-4 * reach && line.length() <= reach;
                 if leans && it.solid() && !group.contains(&other) && it.ball.flags.integrate {
-                    self.bodies[other].quiet_since = at;
+                    // One that slept sleeps on, if nothing moves it.
+                    if !it.leans {
+                        self.bodies[other].quiet_since = at;
+                    }
                     self.bodies[other].target_j = f64::INFINITY;
                     group.push(other);
                 }
@@ -110,7 +123,7 @@ impl EventDriven {
         self.bodies[index].turn_into(next);
     }
 
-    fn state_at(&self, at: Seconds, index: usize) -> Segment {
+    pub(super) fn state_at(&self, at: Seconds, index: usize) -> Segment {
         let from = &self.bodies[index].segment;
         Segment {
             start_s: at,
@@ -250,6 +263,7 @@ impl EventDriven {
                 self.ledger.face_j += kinetic;
                 self.ledger.momentum.table -= momentum;
             } else {
+                body.leans = false;
                 let normal = kept[place].first().map_or(DVec3::Z, |(_, normal, _)| *normal);
                 body.turn_into(Segment {
                     end_s: until,

@@ -26,7 +26,9 @@ impl EventDriven {
 
     /// Predicts the balls that an event at `at` changed.
     pub(super) fn predict(&mut self, at: Seconds, changed: &[usize]) {
-        for index in changed {
+        let mut changed = Changed::from_slice(changed);
+        self.begin_pieces(at, &mut changed);
+        for index in &changed {
             self.predict_own(at, *index);
             self.bodies[*index].pair = (f64::INFINITY, 0);
         }
@@ -46,7 +48,7 @@ impl EventDriven {
                 !changed.contains(&other) && !stale[..place].contains(&other)
             });
         }
-        self.predict_tip(at, changed);
+        self.predict_tip(at, &changed);
         for index in 0..self.bodies.len() {
             self.next[index] = self.bodies[index].next_s();
         }

@@ -6,7 +6,9 @@ use hapticbillard::events::{Fact, FactSet};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::fixed_step::FixedStep;
-use hapticbillard::physics::{Parameters, PhysicsSettings, Profile, Simulation, Solver};
+use hapticbillard::physics::{
+    Parameters, PhysicsSettings, Profile, Simulation, Solver, SolverKind,
+};
 use hapticbillard::table::Table;
 use std::sync::OnceLock;
 
@@ -31,9 +33,14 @@ pub fn on_bed(id: u16, x: f64, y: f64, velocity: DVec3, spin: DVec3) -> (Ball, B
     ball(id, DVec3::new(x, y, R), velocity, spin)
 }
 
+/// The default settings, solved by fixed steps.
+pub fn stepping() -> PhysicsSettings {
+    PhysicsSettings { solver: SolverKind::FixedStep, ..PhysicsSettings::default() }
+}
+
 /// Settings with a step.
 pub fn step(step_ms: f64) -> PhysicsSettings {
-    PhysicsSettings { step_ms, ..PhysicsSettings::default() }
+    PhysicsSettings { step_ms, ..stepping() }
 }
 
 /// A world with standard parameters.
@@ -110,7 +117,7 @@ pub fn pool() -> &'static Table {
 
 /// Settings of the 2009 profile.
 pub fn of_2009() -> PhysicsSettings {
-    PhysicsSettings { profile: Profile::Paper2009, ..PhysicsSettings::default() }
+    PhysicsSettings { profile: Profile::Paper2009, ..stepping() }
 }
 
 /// Whether heavy sweeps are asked for.
