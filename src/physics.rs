@@ -29,6 +29,8 @@ pub mod fixed_step;
 
 pub mod event_driven;
 
+pub mod sample_shots;
+
 mod shot;
 mod simulation;
 

@@ -110,6 +110,16 @@ impl Simulation {
         Ok(Simulation { engine, now_s: 0.0, tip_radius_m })
     }
 
+    /// Other balls at their start, at time zero, on the same table with the same settings. The
+    /// table is shared and not prepared again, which is most of the work of making a simulation.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let engine = match &self.engine {
+            Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),
+            Engine::FixedStep(solver) => Engine::FixedStep(Box::new(solver.with_balls(balls)?)),
+        };
+        Ok(Simulation { engine, now_s: 0.0 })
+    }
+
     /// The time reached [s].
     pub fn now_s(&self) -> Seconds {
         self.now_s

@@ -35,6 +35,9 @@ pub struct Body {
     pub ball: Ball,
     /// How it moves now.
     pub segment: Segment,
+    /// Speed at the start of its segment [m/s], and size of its acceleration [m/s²]: how far it may
+    /// come without a look at the path.
+    haste: (f64, f64),
     /// How it moved before; somebody may look a little back.
     before: Segment,
     /// Where it is in the game's sense.
@@ -67,6 +70,12 @@ pub struct Body {
     pub target_j: f64,
 }
 
+fn haste(segment: &Segment) -> (f64, f64) {
+    // On a spring it may come anywhere.
+    let swings = if segment.swing.is_some() { f64::INFINITY } else { 0.0 };
+    (segment.velocity.length() + swings, segment.acceleration.length())
+}
+
 impl Body {
     /// A ball in the given state.
     pub fn new(ball: Ball, state: &BallState) -> Self {
@@ -80,6 +89,7 @@ impl Body {
         Body {
             ball,
             segment,
+            haste: haste(&segment),
             before: segment,
             place: state.place,
             placed: (state.place, 0.0),
@@ -152,6 +162,13 @@ impl Body {
     pub fn turn_into(&mut self, segment: Segment) {
         self.before = self.segment;
         self.segment = segment;
+        self.haste = haste(&segment);
+    }
+
+    /// No longer way than its centre can go from `at` on for `horizon` [m].
+    pub fn reach_m(&self, at: Seconds, horizon: Seconds) -> f64 {
+        let (speed, pull) = self.haste;
+        (speed + pull * (at - self.segment.start_s + 0.5 * horizon)) * horizon
     }
 
     /// Changes where it is in the game's sense.

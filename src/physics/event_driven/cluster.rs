@@ -28,7 +28,7 @@ impl EventDriven {
                 }
                 let reach = radius + it.ball.radius_m + tolerance::CLUSTER_M;
                 let apart = it.segment.position_at(at) - centre;
-                if apart.x.abs() <= reach && apart.length_squared() <= reach * reach {
+                if apart.length_squared() <= reach * reach {
                     members.push(other);
                 }
             }

@@ -9,12 +9,16 @@
 mod grid;
 mod patches;
 
+pub use grid::BESIDE_M;
+
 use crate::mesh::Surface;
-use crate::physics::fixed_step::spatial_hash::Bounds;
 use crate::physics::tolerance;
 use crate::table::{Bed, Plane, Pocket, Table};
 use glam::{DVec3, IVec3};
 use smallvec::SmallVec;
+
+/// Triangles of one patch overlap by this, so that no foot falls between them [m].
+const SEAM_M: f64 = 1e-12;
 
 /// A part of the terrain that a ball can touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,7 +60,6 @@ pub struct Edge {
     pub flat: bool,
     /// What it counts as.
     pub surface: Surface,
-    bounds: Bounds,
 }
 
 /// Where edges meet.
@@ -66,6 +69,8 @@ pub struct Corner {
     pub point: DVec3,
     /// The patches around it.
     pub patches: SmallVec<[u32; 6]>,
+    /// Unit vectors along its edges, away from it.
+    pub away: SmallVec<[DVec3; 6]>,
     /// What it counts as.
     pub surface: Surface,
 }
@@ -77,12 +82,58 @@ pub struct Group {
     pub patch: u32,
     first: u32,
     count: u32,
-    /// Box around the faces.
-    pub bounds: Bounds,
 }
 
+/// A side of a triangle, as the line that a foot inside of the triangle is not beyond.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Unit vector in the plane of the triangle.
+    inwards: DVec3,
+    /// Distance of the side from the origin along it [m].
+    offset: f64,
+}
+
+impl Side {
+    /// How far `point` is inside [m].
+    fn inside_m(&self, point: DVec3) -> f64 {
+        point.dot(self.inwards) - self.offset
+    }
+}
+
+/// The sides of a triangle that has an area.
+fn sides_of(triangle: &[DVec3; 3]) -> [Side; 3] {
+    let [a, b, c] = *triangle;
+    [(a, b, c), (b, c, a), (c, a, b)].map(|(from, to, third)| {
+        let along = (to - from).normalize_or(DVec3::X);
+        let across = third - from;
+        let inwards = (across - along * across.dot(along)).normalize_or(DVec3::ZERO);
+        Side { inwards, offset: inwards.dot(from) }
+    })
+}
+
+/// A block of cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Block {
+    /// The cell that it is; none if nothing is in reach.
+    node: Option<usize>,
+    /// Its first and last smallest cell along each axis.
+    pub low: IVec3,
+    /// See `low`.
+    pub high: IVec3,
+}
+
+impl Block {
+    /// Whether something may be in reach.
+    pub fn lists(&self) -> bool {
+        self.node.is_some()
+    }
+}
+
+/// A cell: ranges of the lists, or eight smaller ones.
 #[derive(Debug, Clone, Copy, Default)]
-struct Cell {
+struct Node {
+    /// The first of its parts; 0 if it is not cut.
+    children: u32,
     groups: (u32, u32),
     edges: (u32, u32),
     corners: (u32, u32),
@@ -106,18 +157,29 @@ pub struct Terrain {
     /// Nothing is below this [m].
     pub lowest_m: f64,
     triangles: Vec<[DVec3; 3]>,
+    /// The sides of each triangle.
+    sides: Vec<[Side; 3]>,
+    /// The patch of each triangle.
+    faces: Vec<u32>,
+    /// The largest ball that the grid is made for [m].
+    radius_m: f64,
     /// The patch that most faces belong to; cells with nothing else in reach are passed in leaps by
     /// balls that it carries.
     main: u32,
+    /// Where the grid begins [m].
     origin: DVec3,
+    /// Size of the smallest cells [m].
     cell_m: DVec3,
+    /// How many of them there are along each axis.
     count: IVec3,
-    cells: Vec<Cell>,
+    /// Cells: first the coarse ones in order, then their parts.
+    nodes: Vec<Node>,
     groups: Vec<Group>,
-    cell_triangles: Vec<u32>,
-    cell_edges: Vec<u32>,
-    cell_corners: Vec<u32>,
-    /// Cells around each, itself included, in which nothing is in reach; 0 where something is.
+    listed_triangles: Vec<u32>,
+    listed_edges: Vec<u32>,
+    listed_corners: Vec<u32>,
+    /// Coarse cells around each, itself included, in which nothing is in reach; 0 where something
+    /// is.
     empty: Vec<u8>,
     /// The same with the main patch left aside.
     bare: Vec<u8>,
@@ -140,10 +202,35 @@ impl Terrain {
         let of_planes = table.planes.iter().map(|plane| plane.point.z);
         terrain.lowest_m = of_vertices.chain(of_planes).fold(0.0, f64::min);
         if !table.mesh.faces.is_empty() {
-            let faces = patches::merge(&table.mesh, &mut terrain);
-            terrain.fill_grid(&faces, radius_m);
+            terrain.faces = patches::merge(&table.mesh, &mut terrain);
+            terrain.sides = terrain.triangles.iter().map(sides_of).collect();
         }
+        terrain.fill_grid(radius_m);
         terrain
+    }
+
+    /// The same table prepared for balls up to another radius.
+    pub fn for_balls_of(&self, radius_m: f64) -> Self {
+        let mut terrain = Terrain {
+            planes: self.planes.clone(),
+            patches: self.patches.clone(),
+            edges: self.edges.clone(),
+            corners: self.corners.clone(),
+            pockets: self.pockets.clone(),
+            triangles: self.triangles.clone(),
+            sides: self.sides.clone(),
+            faces: self.faces.clone(),
+            bed: self.bed,
+            lowest_m: self.lowest_m,
+            ..Terrain::default()
+        };
+        terrain.fill_grid(radius_m);
+        terrain
+    }
+
+    /// The largest ball that it is prepared for [m].
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
     }
 
     /// What a feature is made of.
@@ -161,44 +248,9 @@ impl Terrain {
         self.bed.map(|bed| bed.head_string_x())
     }
 
-    /// The cell that holds `point`; outside of the grid it has coordinates that do not exist.
-    pub fn cell_of(&self, point: DVec3) -> IVec3 {
-        ((point - self.origin) / self.cell_m)
-            .floor()
-            .clamp(DVec3::splat(-2.0), self.count.as_dvec3() + 1.0)
-            .as_ivec3()
-    }
-
-    fn index(&self, cell: IVec3) -> Option<usize> {
-        let inside = cell.cmpge(IVec3::ZERO).all() && cell.cmplt(self.count).all();
-        inside.then(|| ((cell.z * self.count.y + cell.y) * self.count.x + cell.x) as usize)
-    }
-
-    /// How many cells around `cell`, itself included, hold nothing in reach of a ball that
-    /// `on_main` says is carried by the main patch; 0 if this one does. Outside of the grid: 1.
-    pub fn leap(&self, cell: IVec3, on_main: bool) -> i32 {
-        let rings = if on_main { &self.bare } else { &self.empty };
-        self.index(cell).map_or(1, |index| i32::from(rings[index]))
-    }
-
-    /// How many cells the grid has along an axis.
-    pub fn cells_along(&self, axis: usize) -> i32 {
-        self.count[axis]
-    }
-
-    /// The corners of a block of cells [m]; infinite where it goes beyond the grid.
-    pub fn block(&self, low: IVec3, high: IVec3) -> (DVec3, DVec3) {
-        let min = self.origin + low.as_dvec3() * self.cell_m;
-        let max = self.origin + (high + 1).as_dvec3() * self.cell_m;
-        (
-            DVec3::select(low.cmplt(IVec3::ZERO), DVec3::NEG_INFINITY, min),
-            DVec3::select(high.cmpge(self.count), DVec3::INFINITY, max),
-        )
-    }
-
     /// Whether a mesh exists at all.
     pub fn has_mesh(&self) -> bool {
-        !self.cells.is_empty()
+        !self.nodes.is_empty()
     }
 
     /// The number of the main patch.
@@ -206,38 +258,29 @@ impl Terrain {
         Feature::Patch(self.main)
     }
 
-    /// The faces of each patch that a ball in `cell` can reach.
-    pub fn groups_in(&self, cell: IVec3) -> &[Group] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].groups);
+    /// The faces of each patch that a ball in a block can reach.
+    pub fn groups_in(&self, block: &Block) -> &[Group] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].groups);
         &self.groups[range.0 as usize..range.1 as usize]
     }
 
-    /// The edges that a ball in `cell` can reach.
-    pub fn edges_in(&self, cell: IVec3) -> &[u32] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].edges);
-        &self.cell_edges[range.0 as usize..range.1 as usize]
+    /// The edges that a ball in a block can reach.
+    pub fn edges_in(&self, block: &Block) -> &[u32] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].edges);
+        &self.listed_edges[range.0 as usize..range.1 as usize]
     }
 
-    /// The corners that a ball in `cell` can reach.
-    pub fn corners_in(&self, cell: IVec3) -> &[u32] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].corners);
-        &self.cell_corners[range.0 as usize..range.1 as usize]
-    }
-
-    /// Box around an edge.
-    pub fn edge_bounds(&self, edge: u32) -> &Bounds {
-        &self.edges[edge as usize].bounds
+    /// The corners that a ball in a block can reach.
+    pub fn corners_in(&self, block: &Block) -> &[u32] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].corners);
+        &self.listed_corners[range.0 as usize..range.1 as usize]
     }
 
     /// Whether the foot of the perpendicular from `point` lies in one of the faces of a group.
     pub fn holds(&self, group: &Group, point: DVec3) -> bool {
-        let normal = self.patches[group.patch as usize].normal;
         let range = group.first as usize..(group.first + group.count) as usize;
-        self.cell_triangles[range].iter().any(|triangle| {
-            let [a, b, c] = self.triangles[*triangle as usize];
-            let side = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal);
-            let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
-            (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0)
+        self.listed_triangles[range].iter().any(|triangle| {
+            self.sides[*triangle as usize].iter().all(|side| side.inside_m(point) >= -SEAM_M)
         })
     }
 
@@ -257,8 +300,11 @@ impl Terrain {
             let distance = (centre - plane.point).dot(plane.normal);
             note(Feature::Plane(number as u32), plane.normal, distance);
         }
-        let cell = self.cell_of(centre);
-        for group in self.groups_in(cell) {
+        if !self.has_mesh() {
+            return found;
+        }
+        let block = self.block_at(self.place_of(centre), false);
+        for group in self.groups_in(&block) {
             let patch = &self.patches[group.patch as usize];
             let height = patch.normal.dot(centre) - patch.offset;
             if height.abs() <= reach_m && self.holds(group, centre) {
@@ -266,7 +312,7 @@ impl Terrain {
                 note(Feature::Patch(group.patch), normal, height.abs());
             }
         }
-        for number in self.edges_in(cell) {
+        for number in self.edges_in(&block) {
             let edge = &self.edges[*number as usize];
             let along = (centre - edge.from).dot(edge.along);
             if !edge.flat && 0.0 <= along && along <= edge.length_m {
@@ -275,7 +321,7 @@ impl Terrain {
                 note(Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
             }
         }
-        for number in self.corners_in(cell) {
+        for number in self.corners_in(&block) {
             let offset = centre - self.corners[*number as usize].point;
             note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
         }
@@ -313,7 +359,8 @@ impl Terrain {
     }
 }
 
-fn bounds_of(points: impl Iterator<Item = DVec3>) -> Bounds {
-    let start = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-    points.fold(start, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
+/// The corners of the box around some points.
+fn bounds_of(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.fold(start, |(low, high), p| (low.min(p), high.max(p)))
 }

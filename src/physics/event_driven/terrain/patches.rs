@@ -1,6 +1,6 @@
 //! Coplanar neighbours become one patch; what remains between patches are edges and corners.
 
-use super::{Corner, Edge, Patch, Terrain, bounds_of};
+use super::{Corner, Edge, Patch, Terrain};
 use crate::mesh::{Mesh, Surface};
 use crate::physics::tolerance;
 use glam::DVec3;
@@ -167,7 +167,7 @@ fn find_edges(
     patch_of: &[u32],
     terrain: &mut Terrain,
 ) {
-    let mut ends: BTreeMap<u32, (SmallVec<[u32; 6]>, Surface)> = BTreeMap::new();
+    let mut ends: BTreeMap<u32, Corner> = BTreeMap::new();
     for ((a, b), faces) in around {
         let (from, to) = (points[*a as usize], points[*b as usize]);
         let along = (to - from).normalize_or(DVec3::X);
@@ -198,30 +198,25 @@ fn find_edges(
         let surfaces = faces.iter().map(|face| flats[*face as usize].surface);
         let surface = surfaces.max_by_key(|s| rank(*s)).unwrap_or(Surface::Obstacle);
         if !flat {
-            for end in [*a, *b] {
-                let (patches, counts_as) =
-                    ends.entry(end).or_insert_with(|| (SmallVec::new(), surface));
+            for (end, away) in [(*a, along), (*b, -along)] {
+                let corner = ends.entry(end).or_insert_with(|| Corner {
+                    point: points[end as usize],
+                    patches: SmallVec::new(),
+                    away: SmallVec::new(),
+                    surface,
+                });
                 for (patch, _) in &sides {
-                    if !patches.contains(patch) {
-                        patches.push(*patch);
+                    if !corner.patches.contains(patch) {
+                        corner.patches.push(*patch);
                     }
                 }
-                if rank(*counts_as) < rank(surface) {
-                    *counts_as = surface;
+                corner.away.push(away);
+                if rank(corner.surface) < rank(surface) {
+                    corner.surface = surface;
                 }
             }
         }
-        terrain.edges.push(Edge {
-            from,
-            along,
-            length_m: from.distance(to),
-            sides,
-            flat,
-            surface,
-            bounds: bounds_of([from, to].into_iter()),
-        });
+        terrain.edges.push(Edge { from, along, length_m: from.distance(to), sides, flat, surface });
     }
-    for (end, (patches, surface)) in ends {
-        terrain.corners.push(Corner { point: points[end as usize], patches, surface });
-    }
+    terrain.corners.extend(ends.into_values());
 }
