@@ -9,8 +9,7 @@ use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use kameo::error::SendError;
 use kameo::prelude::*;
-use std::pin::Pin;
-use std::task::{Context as Waiting, Poll, Waker};
+use kameo::request::PendingReply;
 
 /// The mail of one tick.
 #[derive(Debug, Clone)]
@@ -28,15 +27,15 @@ pub struct Answer {
 /// Puts mail into a participant's mailbox at once and returns the answer to come.
 pub type Ask = Box<dyn Fn(Mail) -> Asked + Send + Sync + 'static>;
 
-/// What came of the mail, or will.
+/// What came of the mail.
 pub type Answered = Result<Answer, SendError<Mail>>;
 
 /// Somebody was asked.
 pub enum Asked {
-    /// The mail was refused, or answered already.
-    Done(Answered),
     /// The mail is in the mailbox.
-    Pending(Pin<Box<dyn Future<Output = Answered> + Send>>),
+    Pending(PendingReply<Mail, Answer>),
+    /// The participant is gone, or its mailbox is full.
+    Refused(Box<SendError<Mail>>),
 }
 
 impl Asked {
@@ -48,8 +47,8 @@ impl Asked {
     /// else writes to it.
     pub async fn answer(self) -> Answered {
         match self {
-            Asked::Done(answered) => answered,
             Asked::Pending(answer) => answer.await,
+            Asked::Refused(error) => Err(*error),
         }
     }
 }
@@ -69,13 +68,17 @@ pub struct Seat {
 /// The door to an actor that answers [`Mail`].
 pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
     Box::new(move |mail| {
-        let actor = actor.clone();
-        let mut answer = Box::pin(async move { actor.ask(mail).try_send().await });
-        // The first poll puts the mail into the mailbox; nobody need be woken before the answer is
-        // waited for. (Kameo's `try_enqueue` does the same, but panics where the mail is refused.)
-        match answer.as_mut().poll(&mut Waiting::from_waker(Waker::noop())) {
-            Poll::Ready(answered) => Asked::Done(answered),
-            Poll::Pending => Asked::Pending(answer),
+        // Kameo's `try_enqueue` panics where mail is refused, so it is looked at before. Between
+        // two ticks a participant has nothing to do that it could die of.
+        if !actor.is_alive() {
+            return Asked::Refused(Box::new(SendError::ActorNotRunning(mail)));
+        }
+        if actor.mailbox_sender().capacity() == Some(0) {
+            return Asked::Refused(Box::new(SendError::MailboxFull(mail)));
+        }
+        match actor.ask(mail).try_enqueue() {
+            Ok(answer) => Asked::Pending(answer),
+            Err(_) => Asked::Refused(Box::new(SendError::ActorStopped)),
         }
     })
 }

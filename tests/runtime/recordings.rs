@@ -49,7 +49,7 @@ fn is_under_way(path: &Path) -> bool {
 fn match_that_gets(signal: Signal, name: &str) -> Output {
     let folder = folder(name);
     let games = ["match", "--games", "5000", "--seed", "3", "--record", folder.to_str().unwrap()];
-    let mut child = start(&games);
+    let child = start(&games);
     // It is made to stand still to look whether a game is under way.
     loop {
         send(&child, Signal::STOP);
