@@ -9,7 +9,8 @@ use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use kameo::error::SendError;
 use kameo::prelude::*;
-use kameo::request::PendingReply;
+use std::pin::Pin;
+use std::task::{Context as Waiting, Poll, Waker};
 
 /// The mail of one tick.
 #[derive(Debug, Clone)]
@@ -24,11 +25,34 @@ pub struct Answer {
     pub digest: Digest,
 }
 
-/// Puts mail into a participant's mailbox at once and returns the answer to come. When the mailbox
-/// is full it refuses: a participant is asked once a tick and answers before the next, so this
-/// means that somebody else writes to it.
-pub type Ask =
-    Box<dyn Fn(Mail) -> Result<PendingReply<Mail, Answer>, SendError> + Send + Sync + 'static>;
+/// Puts mail into a participant's mailbox at once and returns the answer to come.
+pub type Ask = Box<dyn Fn(Mail) -> Asked + Send + Sync + 'static>;
+
+/// What came of the mail, or will.
+pub type Answered = Result<Answer, SendError<Mail>>;
+
+/// Somebody was asked.
+pub enum Asked {
+    /// The mail was refused, or answered already.
+    Done(Answered),
+    /// The mail is in the mailbox.
+    Pending(Pin<Box<dyn Future<Output = Answered> + Send>>),
+}
+
+impl Asked {
+    /// Waits for the answer.
+    ///
+    /// # Errors
+    /// What became of the mail: the participant is gone, it died over it, or its mailbox is full.
+    /// It is asked once a tick and answers before the next, so a full mailbox means that somebody
+    /// else writes to it.
+    pub async fn answer(self) -> Answered {
+        match self {
+            Asked::Done(answered) => answered,
+            Asked::Pending(answer) => answer.await,
+        }
+    }
+}
 
 /// A participant as the event manager knows it.
 pub struct Seat {
@@ -44,7 +68,16 @@ pub struct Seat {
 
 /// The door to an actor that answers [`Mail`].
 pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
-    Box::new(move |mail| actor.ask(mail).try_enqueue())
+    Box::new(move |mail| {
+        let actor = actor.clone();
+        let mut answer = Box::pin(async move { actor.ask(mail).try_send().await });
+        // The first poll puts the mail into the mailbox; nobody need be woken before the answer is
+        // waited for. (Kameo's `try_enqueue` does the same, but panics where the mail is refused.)
+        match answer.as_mut().poll(&mut Waiting::from_waker(Waker::noop())) {
+            Poll::Ready(answered) => Asked::Done(answered),
+            Poll::Pending => Asked::Pending(answer),
+        }
+    })
 }
 
 /// Hands `mail` to a core.

@@ -29,6 +29,8 @@ pub mod fixed_step;
 
 pub mod event_driven;
 
+pub mod sample_shots;
+
 mod shot;
 mod simulation;
 
@@ -40,7 +42,7 @@ pub use ledger::{Ledger, Momentum};
 pub use parameters::{Contact, Parameters};
 pub use profiles::Equipment;
 pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
-pub use shot::{Shot, Strike, Trajectory};
+pub use shot::{Shot, Strike, StrikeError, Trajectory};
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use solver::Solver;

@@ -29,6 +29,12 @@ pub enum PhysicsError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// The exact solver was asked for the laws of the paper's step.
+    #[error(
+        "profile \"2009\" is the paper's fixed step with its faults, and event-driven has no \
+         steps; use solver = \"fixed-step\", or profile = \"standard\""
+    )]
+    ProfileNeedsSteps,
     /// Two balls have the same name.
     #[error("ball {0} exists twice; give each ball an id of its own")]
     DuplicateBall(BallId),

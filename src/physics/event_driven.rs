@@ -19,6 +19,8 @@ mod course;
 mod lasting;
 mod motion;
 mod predict;
+#[cfg(test)]
+mod resegment;
 mod segment;
 mod sweep;
 mod tell;
@@ -43,7 +45,7 @@ use tip::Tip;
 
 /// Events of one ball per second of simulated time beyond which something is stuck; a ball in the
 /// tightest of wedges makes a tenth of it.
-const EVENTS_PER_SECOND_MAX: u64 = 20_000;
+const EVENTS_PER_SECOND_MAX: u64 = 200_000;
 
 /// The solver.
 #[derive(Debug, Clone)]
@@ -66,6 +68,8 @@ pub struct EventDriven {
     touching: Vec<(usize, usize, Seconds)>,
     /// Next step of the balls in lasting contact [s].
     lasting_at: Seconds,
+    /// Balls that begin a lasting contact in the present event.
+    begins: predict::Changed,
     /// Something moved since everything last settled.
     moved: bool,
     /// Since when everything is at rest [s].
@@ -100,12 +104,31 @@ impl EventDriven {
     ) -> Result<Self, PhysicsError> {
         parameters.check()?;
         let balls = checks::checked(balls)?;
-        let largest = balls.iter().map(|(ball, _)| ball.radius_m).fold(0.0, f64::max);
+        let terrain = Arc::new(Terrain::new(table, largest(&balls)));
+        Ok(Self::on(terrain, balls, parameters))
+    }
+
+    /// Other balls at their start on the same table, which is prepared only once.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if a value is impossible or two balls overlap.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let balls = checks::checked(balls)?;
+        let radius_m = largest(&balls);
+        let terrain = if radius_m == self.terrain.radius_m() {
+            self.terrain.clone()
+        } else {
+            Arc::new(self.terrain.for_balls_of(radius_m))
+        };
+        Ok(Self::on(terrain, balls, self.parameters.clone()))
+    }
+
+    fn on(terrain: Arc<Terrain>, balls: Vec<(Ball, BallState)>, parameters: Parameters) -> Self {
         let bodies: Vec<Body> =
             balls.into_iter().map(|(ball, state)| Body::new(ball, &state)).collect();
         let count = bodies.len();
         let mut world = EventDriven {
-            terrain: Arc::new(Terrain::new(table, largest)),
+            terrain,
             parameters,
             bodies,
             next: vec![f64::INFINITY; count],
@@ -116,6 +139,7 @@ impl EventDriven {
             told: Vec::new(),
             touching: Vec::new(),
             lasting_at: f64::INFINITY,
+            begins: predict::Changed::new(),
             moved: false,
             rest_since: None,
             ledger: Ledger::default(),
@@ -133,7 +157,7 @@ impl EventDriven {
         }
         world.predict_all();
         world.watch_rest();
-        Ok(world)
+        world
     }
 
     /// Radius of a ball [m]; none if nobody knows it.
@@ -244,6 +268,11 @@ impl EventDriven {
             cue: self.tip.as_ref().map(|tip| tip.cue.pose(at)),
         }
     }
+}
+
+/// Radius of the largest ball [m].
+fn largest(balls: &[(Ball, BallState)]) -> f64 {
+    balls.iter().map(|(ball, _)| ball.radius_m).fold(0.0, f64::max)
 }
 
 impl Solver for EventDriven {

@@ -83,6 +83,8 @@ pub struct FixedStep {
     work: Work,
     tracks: Option<Vec<Vec<Knot>>>,
     scratch: Scratch,
+    /// Size of a cell [m].
+    cell_m: f64,
 }
 
 /// A command and the step at whose start it acts.
@@ -104,6 +106,20 @@ struct Scratch {
     awake: Vec<usize>,
 }
 
+impl Scratch {
+    fn new(cell_m: f64, balls: usize) -> Self {
+        Scratch {
+            balls: SpatialHash::new(cell_m, 4 * balls),
+            seen_balls: Seen::default(),
+            seen_faces: Seen::default(),
+            faces: Vec::new(),
+            near: Vec::new(),
+            queue: Vec::new(),
+            awake: Vec::new(),
+        }
+    }
+}
+
 impl FixedStep {
     /// A world of balls on a table, with cells of `cell_m`; any size finds the same contacts.
     pub fn new(
@@ -122,14 +138,8 @@ impl FixedStep {
         )?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
-        let bodies: Vec<Body> = checks::checked(balls)?
-            .into_iter()
-            .map(|(ball, state)| Body::new(ball, &state))
-            .collect();
-
         let h = settings.step_ms / 1000.0;
-        let count = bodies.len();
-        let mut world = FixedStep {
+        let empty = FixedStep {
             ground: Arc::new(Ground::new(table, cell_m)),
             parameters,
             profile: settings.profile,
@@ -137,7 +147,7 @@ impl FixedStep {
             back_dating: settings.contact_back_dating,
             step_ms: settings.step_ms,
             h,
-            bodies,
+            bodies: Vec::new(),
             cue: None,
             step: 0,
             commands: VecDeque::new(),
@@ -152,15 +162,39 @@ impl FixedStep {
             ledger: Ledger::default(),
             work: Work::default(),
             tracks: None,
-            scratch: Scratch {
-                balls: SpatialHash::new(cell_m, 4 * count),
-                seen_balls: Seen::default(),
-                seen_faces: Seen::default(),
-                faces: Vec::new(),
-                near: Vec::new(),
-                queue: Vec::new(),
-                awake: Vec::new(),
-            },
+            scratch: Scratch::new(cell_m, 0),
+            cell_m,
+        };
+        empty.with_balls(balls)
+    }
+
+    /// Other balls at their start on the same table, which is prepared only once.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if a value is impossible or two balls overlap.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let bodies: Vec<Body> = checks::checked(balls)?
+            .into_iter()
+            .map(|(ball, state)| Body::new(ball, &state))
+            .collect();
+        let count = bodies.len();
+        let mut world = FixedStep {
+            ground: self.ground.clone(),
+            parameters: self.parameters.clone(),
+            bodies,
+            cue: None,
+            step: 0,
+            commands: VecDeque::new(),
+            pending: VecDeque::new(),
+            told: Vec::new(),
+            touching: Vec::new(),
+            moved: false,
+            rest_since: None,
+            ledger: Ledger::default(),
+            work: Work::default(),
+            tracks: None,
+            scratch: Scratch::new(self.cell_m, count),
+            ..*self
         };
         for index in 0..count {
             world.find_supports(index);
@@ -229,7 +263,9 @@ impl FixedStep {
     /// The first step whose grid time is not before `at`.
     fn step_at(&self, at: Seconds) -> u64 {
         let guess = (at / self.h).max(0.0) as u64;
-        (guess.saturating_sub(1)..).find(|step| self.grid(*step) >= at).unwrap_or(guess)
+        // The quotient may be off by one; a time that no run reaches has no step after it.
+        let near = guess.saturating_sub(1)..=guess.saturating_add(2);
+        near.into_iter().find(|step| self.grid(*step) >= at).unwrap_or(u64::MAX)
     }
 
     /// One step, or as many as can be skipped before `limit`.

@@ -34,7 +34,7 @@ pub struct PhysicsSettings {
 impl Default for PhysicsSettings {
     fn default() -> Self {
         PhysicsSettings {
-            solver: SolverKind::FixedStep,
+            solver: SolverKind::EventDriven,
             step_ms: 4.0,
             integrator: Integrator::EulerCromer,
             profile: Profile::Standard,

@@ -4,7 +4,7 @@ use super::event_driven::EventDriven;
 use super::fixed_step::{CELL_M, FixedStep};
 use super::shot::{Shot, Strike, Tracks};
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Snapshot, Solver, SolverKind, Work,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Snapshot, Solver, SolverKind, Work,
 };
 use crate::ball::{Ball, BallState, Motion};
 use crate::events::{Command, Fact, FactSet, Topic};
@@ -95,6 +95,9 @@ impl Simulation {
     ) -> Result<Self, PhysicsError> {
         let tip_radius_m = parameters.tip_radius_m;
         let engine = match settings.solver {
+            SolverKind::EventDriven if settings.profile == Profile::Paper2009 => {
+                return Err(PhysicsError::ProfileNeedsSteps);
+            }
             SolverKind::EventDriven => {
                 let solver = EventDriven::new(table, balls, parameters)?;
                 Engine::EventDriven(Box::new(solver))
@@ -105,6 +108,16 @@ impl Simulation {
             }
         };
         Ok(Simulation { engine, now_s: 0.0, tip_radius_m })
+    }
+
+    /// Other balls at their start, at time zero, on the same table with the same settings. The
+    /// table is shared and not prepared again, which is most of the work of making a simulation.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let engine = match &self.engine {
+            Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),
+            Engine::FixedStep(solver) => Engine::FixedStep(Box::new(solver.with_balls(balls)?)),
+        };
+        Ok(Simulation { engine, now_s: 0.0 })
     }
 
     /// The time reached [s].

@@ -105,6 +105,9 @@ impl Hud {
             }
             hud.message.push(texts.turn(&told));
         }
+        if board.is_unrecorded {
+            hud.message.push(words.get("not_recorded"));
+        }
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
             hud.tip = Some(TipDial {

@@ -119,6 +119,8 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
     let default = PhysicsSettings::default();
     let step = Limits { low: 0.001, high: 50.0, unit: "(ms)", example: "4.0" };
     let gravity = Limits { low: 0.0, high: 1000.0, unit: "(m/s², downwards)", example: "9.81" };
+    let solvers: [(&[&str], SolverKind); 2] =
+        [(&["event-driven"], SolverKind::EventDriven), (&["fixed-step"], SolverKind::FixedStep)];
     let integrators: [(&[&str], Integrator); 3] = [
         (&["euler-cromer"], Integrator::EulerCromer),
         (&["verlet"], Integrator::Verlet),
@@ -141,19 +143,20 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         (&["hertz"], MultiContact::Hertz),
         (&["pairwise"], MultiContact::Pairwise),
     ];
+    let solver = section.choice("solver", &solvers)?.unwrap_or(default.solver);
+    let profile = section.choice("profile", &profiles)?.unwrap_or(default.profile);
+    if (solver, profile) == (SolverKind::EventDriven, Profile::Paper2009) {
+        return Err(section.error(
+            "profile",
+            "\"2009\" is the paper's fixed step with its faults, and event-driven has no steps",
+            "add solver = \"fixed-step\", or write profile = \"standard\"",
+        ));
+    }
     Ok(PhysicsSettings {
-        solver: section
-            .choice(
-                "solver",
-                &[
-                    (&["event-driven"], SolverKind::EventDriven),
-                    (&["fixed-step"], SolverKind::FixedStep),
-                ],
-            )?
-            .unwrap_or(default.solver),
+        solver,
         step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
         integrator: section.choice("integrator", &integrators)?.unwrap_or(default.integrator),
-        profile: section.choice("profile", &profiles)?.unwrap_or(default.profile),
+        profile,
         ball_law: section.choice("ball_law", &ball_laws)?.unwrap_or(default.ball_law),
         cushion_law: section.choice("cushion_law", &cushion_laws)?.unwrap_or(default.cushion_law),
         multi_contact: section.choice("multi_contact", &rules)?.unwrap_or(default.multi_contact),

@@ -72,19 +72,21 @@ fn forces(
     }
     // Everything that touches holds, whether its force is asked for or not.
     let mut touches: Vec<(i64, i64, Touch)> = Vec::new();
-    let law = |friction| Contact { restitution: 0.0, friction };
+    let touch = |a, b, normal, friction| {
+        let law = Contact { restitution: 0.0, friction };
+        Touch { carries: true, ..Touch::new(a, b, normal, law) }
+    };
     for (a, one) in balls.iter().enumerate() {
         for (b, two) in balls.iter().enumerate().skip(a + 1) {
             let line = one.position_m - two.position_m;
             if line.length() - one.radius_m - two.radius_m <= TOUCHING_M {
                 let normal = line.normalize_or(DVec3::Z);
-                let touch = Touch::new(a, Some(b), normal, law(between));
-                touches.push((one.id, two.id, touch));
+                touches.push((one.id, two.id, touch(a, Some(b), normal, between)));
             }
         }
         let mut held = |number: i64, gap: f64, normal: DVec3| {
             if gap <= TOUCHING_M {
-                touches.push((one.id, -number, Touch::new(a, None, normal, law(at_walls))));
+                touches.push((one.id, -number, touch(a, None, normal, at_walls)));
             }
         };
         for (wall, number) in walls.iter().zip(1..) {

@@ -198,6 +198,11 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
          \"2009\"?",
     );
     after_head(
+        "profile = \"2009\"\n",
+        "4: physics.profile = \"2009\": \"2009\" is the paper's fixed step with its faults, and \
+         event-driven has no steps; add solver = \"fixed-step\", or write profile = \"standard\"",
+    );
+    after_head(
         "[table]\n",
         "4: table.preset: missing, a table needs a preset; write preset = \"pool-9ft\", or use \
          [[plane]], [[box]] and [[mesh]] instead",

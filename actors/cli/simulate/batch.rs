@@ -9,48 +9,12 @@ use hapticbillard::hash::Digest;
 use hapticbillard::physics::{Shot, Simulation, Strike};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::read_text;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
 
 /// The largest file of shots that is read [bytes].
 const SIZE_MAX: u64 = 256 << 20;
-
-/// One line of the file.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct StrikeLine {
-    speed_m_s: f64,
-    azimuth_deg: f64,
-    elevation_deg: f64,
-    side: f64,
-    height: f64,
-}
-
-impl Default for StrikeLine {
-    fn default() -> Self {
-        let strike = Strike::CENTRE;
-        StrikeLine {
-            speed_m_s: strike.speed_m_s,
-            azimuth_deg: strike.azimuth_deg,
-            elevation_deg: strike.elevation_deg,
-            side: strike.side_offset,
-            height: strike.height_offset,
-        }
-    }
-}
-
-impl From<StrikeLine> for Strike {
-    fn from(line: StrikeLine) -> Self {
-        Strike {
-            speed_m_s: line.speed_m_s,
-            azimuth_deg: line.azimuth_deg,
-            elevation_deg: line.elevation_deg,
-            side_offset: line.side,
-            height_offset: line.height,
-        }
-    }
-}
 
 #[derive(Serialize)]
 struct ShotLine<'a> {
@@ -115,14 +79,14 @@ fn read(file: &Path) -> Result<Vec<(usize, Strike)>, Error> {
     let text = read_text(file, SIZE_MAX)?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines
-        .map(|(index, line)| match serde_json::from_str::<StrikeLine>(line) {
-            Ok(strike) => Ok((index + 1, strike.into())),
+        .map(|(index, line)| match Strike::from_json(line) {
+            Ok(strike) => Ok((index + 1, strike)),
             Err(error) => Err(wrong(file, index + 1, error)),
         })
         .collect()
 }
 
 fn wrong(file: &Path, line: usize, error: impl std::fmt::Display) -> Error {
-    let fix = "a line is for example {\"speed_m_s\":4,\"azimuth_deg\":10}; see simulate --help";
+    let fix = "see simulate --help for what a line may hold";
     Error::input(format!("{}:{line}", file.display()), error.to_string(), fix)
 }

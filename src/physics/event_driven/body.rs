@@ -35,6 +35,9 @@ pub struct Body {
     pub ball: Ball,
     /// How it moves now.
     pub segment: Segment,
+    /// Speed at the start of its segment [m/s], and size of its acceleration [m/s²]: how far it may
+    /// come without a look at the path.
+    haste: (f64, f64),
     /// How it moved before; somebody may look a little back.
     before: Segment,
     /// Where it is in the game's sense.
@@ -57,12 +60,20 @@ pub struct Body {
     pub held_rails: u8,
     /// Since when contacts are counted, and how many there were.
     pub busy: (Seconds, u32),
+    /// The part of the terrain that it met last.
+    pub met: Option<Feature>,
     /// It sleeps on several supports or on other balls, and wakes when one of them changes.
     pub leans: bool,
     /// In lasting contact: since when it lies nearly still [s].
     pub quiet_since: Seconds,
     /// In lasting contact: mechanical energy that it should have at the next step [J].
     pub target_j: f64,
+}
+
+fn haste(segment: &Segment) -> (f64, f64) {
+    // On a spring it may come anywhere.
+    let swings = if segment.swing.is_some() { f64::INFINITY } else { 0.0 };
+    (segment.velocity.length() + swings, segment.acceleration.length())
 }
 
 impl Body {
@@ -78,6 +89,7 @@ impl Body {
         Body {
             ball,
             segment,
+            haste: haste(&segment),
             before: segment,
             place: state.place,
             placed: (state.place, 0.0),
@@ -89,6 +101,7 @@ impl Body {
             clear_rails: 0,
             held_rails: 0,
             busy: (0.0, 0),
+            met: None,
             leans: false,
             quiet_since: 0.0,
             target_j: 0.0,
@@ -149,6 +162,13 @@ impl Body {
     pub fn turn_into(&mut self, segment: Segment) {
         self.before = self.segment;
         self.segment = segment;
+        self.haste = haste(&segment);
+    }
+
+    /// No longer way than its centre can go from `at` on for `horizon` [m].
+    pub fn reach_m(&self, at: Seconds, horizon: Seconds) -> f64 {
+        let (speed, pull) = self.haste;
+        (speed + pull * (at - self.segment.start_s + 0.5 * horizon)) * horizon
     }
 
     /// Changes where it is in the game's sense.

@@ -26,9 +26,17 @@ pub struct Relative {
 /// When the distance of two points first closes to `distance_m`, within `[0, horizon]`.
 pub fn spheres(motion: &Relative, distance_m: f64, horizon: Seconds) -> Option<Seconds> {
     let Relative { offset: x, velocity: v, acceleration: a } = *motion;
-    let length = x.length();
-    let square = [x.dot(v), v.length_squared(), x.dot(a), v.dot(a), a.length_squared()];
-    let [xv, vv, xa, va, aa] = square;
+    let (xx, xv, vv) = (x.length_squared(), x.dot(v), v.length_squared());
+    let (xa, va, aa) = (x.dot(a), v.dot(a), a.length_squared());
+
+    // Most pairs stay apart, and this is how to see it without a root.
+    let rounding = 1e-12 * xx;
+    let start = xx - distance_m * distance_m;
+    let polynomial = [start, 2.0 * xv, vv + xa, va, 0.25 * aa];
+    if start > rounding && bernstein(&polynomial, horizon).iter().all(|b| *b > rounding) {
+        return None;
+    }
+    let length = xx.sqrt();
 
     // Out of reach?
     let gap = length - distance_m;
@@ -102,17 +110,8 @@ fn first_falling(c: &[f64; 5], horizon: Seconds) -> Option<Seconds> {
         return falling_quadratic(c[0], c[1], 2.0 * c[2], horizon);
     }
     let t = horizon;
-    if c[0] > 0.0 {
-        let (a, b, d) = (c[1] * t, c[2] * t * t, c[3] * t * t * t);
-        let inner = [
-            c[0] + 0.25 * a,
-            c[0] + 0.5 * a + b / 6.0,
-            c[0] + 0.75 * a + 0.5 * b + 0.25 * d,
-            c[0] + a + b + d + c[4] * t * t * t * t,
-        ];
-        if inner.iter().all(|b| *b > 0.0) {
-            return None;
-        }
+    if c[0] > 0.0 && bernstein(c, t).iter().all(|b| *b > 0.0) {
+        return None;
     }
 
     let mut ends = Ends::new();
@@ -127,6 +126,18 @@ fn first_falling(c: &[f64; 5], horizon: Seconds) -> Option<Seconds> {
         (start, at_start) = (end, at_end);
     }
     None
+}
+
+/// All but the first of the Bernstein coefficients of a quartic on `[0, t]`: where they are
+/// positive, it is.
+fn bernstein(c: &[f64; 5], t: Seconds) -> [f64; 4] {
+    let (a, b, d) = (c[1] * t, c[2] * t * t, c[3] * t * t * t);
+    [
+        c[0] + 0.25 * a,
+        c[0] + 0.5 * a + b / 6.0,
+        c[0] + 0.75 * a + 0.5 * b + 0.25 * d,
+        c[0] + a + b + d + c[4] * t * t * t * t,
+    ]
 }
 
 /// At most three numbers, without a heap.

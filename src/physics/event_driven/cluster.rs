@@ -28,7 +28,7 @@ impl EventDriven {
                 }
                 let reach = radius + it.ball.radius_m + tolerance::CLUSTER_M;
                 let apart = it.segment.position_at(at) - centre;
-                if apart.x.abs() <= reach && apart.length_squared() <= reach * reach {
+                if apart.length_squared() <= reach * reach {
                     members.push(other);
                 }
             }
@@ -147,6 +147,7 @@ impl EventDriven {
             if !changed.contains(index) {
                 continue;
             }
+            self.bodies[*index].met = None;
             if self.is_busy(at, *index) && (self.pressed(at, *index) || !faces.is_empty()) {
                 self.begin_lasting_with(at, *index, &movers[place], DVec3::ZERO);
             } else {

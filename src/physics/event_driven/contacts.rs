@@ -20,13 +20,22 @@ use smallvec::SmallVec;
 pub(super) type Touched = SmallVec<[(Feature, DVec3); 2]>;
 
 impl EventDriven {
-    /// Other features that a ball touches and closes on at `at`.
-    fn also_touched(&self, at: Seconds, index: usize, but: &[DVec3], mover: &Mover) -> Touched {
+    /// Other features that a ball touches and closes on at `at`, but for one that it meets, and for
+    /// those with the normals in `but`.
+    fn also_touched(
+        &self,
+        at: Seconds,
+        index: usize,
+        met: Option<Feature>,
+        but: &[DVec3],
+        mover: &Mover,
+    ) -> Touched {
         let body = &self.bodies[index];
         let centre = body.segment.position_at(at);
         let mut touched = Touched::new();
-        let on_main = body.held.len() == 1 && body.held[0] == self.terrain.main_patch();
-        let alone = self.terrain.leap(self.terrain.cell_of(centre), on_main) > 0;
+        let main = self.terrain.main_patch();
+        let on_main = body.held.len() == 1 && body.held[0] == main || met == Some(main);
+        let alone = !self.terrain.block_at(self.terrain.place_of(centre), on_main).lists();
         if alone && self.terrain.planes.is_empty() {
             return touched;
         }
@@ -78,7 +87,7 @@ impl EventDriven {
         let support = self.support(index, at);
         let mut known: SmallVec<[DVec3; 2]> = SmallVec::from_slice(&[normal]);
         known.extend(support.map(|(normal, _)| normal));
-        let also = self.also_touched(at, index, &known, &mover);
+        let also = self.also_touched(at, index, Some(feature), &known, &mover);
 
         if members.len() > 1 {
             let met: Touched = std::iter::once((feature, normal)).chain(also).collect();
@@ -154,8 +163,11 @@ impl EventDriven {
         approach: f64,
         restitution: f64,
     ) {
-        let busy = self.is_busy(at, index);
         let (feature, normal) = (meeting.feature, meeting.normal);
+        // Hops on one surface are a series that ends by itself.
+        let hops = self.bodies[index].held.is_empty()
+            && self.bodies[index].met.replace(feature) == Some(feature);
+        let busy = !hops && self.is_busy(at, index);
         let radius = self.bodies[index].ball.radius_m;
         let gravity = self.parameters.gravity_m_s2;
         let carries = normal.z > 1e-9 && self.bodies[index].ball.flags.gravity && gravity > 0.0;
@@ -257,7 +269,7 @@ impl EventDriven {
         let beside = [(a, &movers.0), (b, &movers.1)].into_iter().any(|(index, mover)| {
             // What a ball might be pressed against counts, wherever it moves now.
             let pushed = Mover { velocity: if index == a { normal } else { -normal }, ..*mover };
-            !self.also_touched(at, index, &[], &pushed).is_empty()
+            !self.also_touched(at, index, None, &[], &pushed).is_empty()
         });
         if members.len() > 2 || beside {
             self.resolve_cluster(at, &members, a, &Touched::new());
@@ -265,6 +277,8 @@ impl EventDriven {
         }
 
         self.work.contacts += 1;
+        self.bodies[a].met = None;
+        self.bodies[b].met = None;
         let (mut p, mut q) = movers;
         let approach = -(p.surface_velocity(normal) - q.surface_velocity(-normal)).dot(normal);
         let slip = p.surface_velocity(normal) - q.surface_velocity(-normal);

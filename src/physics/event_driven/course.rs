@@ -31,7 +31,8 @@ impl EventDriven {
         if weighs && body.ball.flags.collide && self.parameters.gravity_m_s2 > 0.0 {
             let reach = radius + tolerance::START_OVERLAP_M;
             for (feature, normal, distance) in self.terrain.near(segment.position, reach) {
-                if normal.z > 1e-9 && segment.velocity.dot(normal) <= tolerance::HOP_M_S {
+                // What falls on it or leaves it does not lie on it.
+                if normal.z > 1e-9 && segment.velocity.dot(normal).abs() <= tolerance::HOP_M_S {
                     carriers.push(feature);
                     // It lies on the first exactly.
                     if carriers.len() == 1 {
@@ -53,7 +54,7 @@ impl EventDriven {
         self.bodies[index].held = if simple { carriers } else { SmallVec::new() };
         let mover = self.bodies[index].mover(at);
         if stuck {
-            self.begin_lasting(at, index);
+            self.begins.push(index);
         } else {
             self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
         }
@@ -123,7 +124,7 @@ impl EventDriven {
         }
         let Some((normal, law)) = self.support(index, at) else {
             self.bodies[index].turn_into(Segment { course: Course::Lasting, swing: None, ..start });
-            self.begin_lasting(at, index);
+            self.begins.push(index);
             return;
         };
         let lift = start.velocity.dot(normal);
@@ -152,7 +153,7 @@ impl EventDriven {
                     swing: None,
                     ..start.segment
                 });
-                self.begin_lasting(at, index);
+                self.begins.push(index);
             }
         }
     }
@@ -206,7 +207,7 @@ impl EventDriven {
                     swing: None,
                     ..state
                 });
-                self.begin_lasting(at, index);
+                self.begins.push(index);
             }
         }
         self.predict(at, &[index]);

@@ -51,31 +51,79 @@ impl EventDriven {
             swing: None,
             ..from
         });
-        self.begin_lasting(at, index);
+        self.begins.push(index);
     }
 
-    /// A ball goes on in lasting contact: its first piece, up to the next step of all.
-    pub(super) fn begin_lasting(&mut self, at: Seconds, index: usize) {
+    /// The first piece of the balls that begin a lasting contact now, and of all that lean on them
+    /// or that they lean on, up to the next step of all. Adds them to the balls that changed.
+    ///
+    /// It waits until each of them has the velocity that the event gave it.
+    pub(super) fn begin_pieces(&mut self, at: Seconds, changed: &mut Changed) {
+        if self.begins.is_empty() {
+            return;
+        }
         let step = tolerance::LASTING_STEP_S;
         let mut next = (libm::floor(at / step) + 1.0) * step;
         if next - at < 1e-9 {
             next += step;
         }
-        if self.bodies[index].segment.start_s < at {
-            self.watch_rails(index, at);
-            self.close_segment(at, index);
-            let state = self.state_at(at, index);
-            self.bodies[index].turn_into(state);
+        let mut group = core::mem::take(&mut self.begins);
+        group.sort_unstable();
+        group.dedup();
+        for index in &group {
+            self.bodies[*index].quiet_since = at;
+            self.bodies[*index].target_j = f64::INFINITY;
         }
-        self.bodies[index].quiet_since = at;
-        self.bodies[index].target_j = f64::INFINITY;
-        self.pieces(at, &[index], next);
-        if self.bodies[index].segment.course == Course::Lasting {
+        self.join_leaning(at, &mut group);
+        for index in &group {
+            self.cut_lasting(at, *index);
+        }
+        self.pieces(at, &group, next);
+        if group.iter().any(|index| self.bodies[*index].segment.course == Course::Lasting) {
             self.lasting_at = self.lasting_at.min(next);
+        }
+        for index in group {
+            if !changed.contains(&index) {
+                changed.push(index);
+            }
         }
     }
 
-    fn state_at(&self, at: Seconds, index: usize) -> Segment {
+    /// Adds to a group the balls that its members lean on, or that lean on them.
+    fn join_leaning(&mut self, at: Seconds, group: &mut Changed) {
+        let mut place = 0;
+        while place < group.len() {
+            let index = group[place];
+            let centre = self.bodies[index].segment.position_at(at);
+            for other in 0..self.bodies.len() {
+                let it = &self.bodies[other];
+                let reach = self.bodies[index].ball.radius_m + it.ball.radius_m + TOUCH_M;
+                let line = it.segment.position_at(at) - centre;
+                let leans = line.z.abs() > 1e-4 * reach && line.length() <= reach;
+                if leans && it.solid() && !group.contains(&other) && it.ball.flags.integrate {
+                    // One that slept sleeps on, if nothing moves it.
+                    if !it.leans {
+                        self.bodies[other].quiet_since = at;
+                    }
+                    self.bodies[other].target_j = f64::INFINITY;
+                    group.push(other);
+                }
+            }
+            place += 1;
+        }
+        group.sort_unstable();
+    }
+
+    /// Ends a ball's segment; what follows is a piece of lasting contact.
+    fn cut_lasting(&mut self, at: Seconds, index: usize) {
+        self.watch_rails(index, at);
+        self.close_segment(at, index);
+        let state = self.state_at(at, index);
+        let next = Segment { course: Course::Lasting, swing: None, ..state };
+        self.bodies[index].turn_into(next);
+    }
+
+    pub(super) fn state_at(&self, at: Seconds, index: usize) -> Segment {
         let from = &self.bodies[index].segment;
         Segment {
             start_s: at,
@@ -96,35 +144,10 @@ impl EventDriven {
                 body.in_play() && body.segment.course == Course::Lasting
             })
             .collect();
-        // Balls that they lean on, or that lean on them, join.
-        let mut place = 0;
-        while place < group.len() {
-            let index = group[place];
-            let centre = self.bodies[index].segment.position_at(at);
-            for other in 0..self.bodies.len() {
-                let it = &self.bodies[other];
-                let reach = self.bodies[index].ball.radius_m + it.ball.radius_m + TOUCH_M;
-                let line = it.segment.position_at(at) - centre;
-                let leans = line.z.abs() > 1e-4 * reach && line.length() <= reach;
-                if leans && it.solid() && !group.contains(&other) && it.ball.flags.integrate {
-                    self.bodies[other].quiet_since = at;
-                    self.bodies[other].target_j = f64::INFINITY;
-                    group.push(other);
-                }
-            }
-            place += 1;
-        }
-        group.sort_unstable();
+        self.join_leaning(at, &mut group);
         for index in &group {
             self.check_finite(at, *index)?;
-            self.watch_rails(*index, at);
-            self.close_segment(at, *index);
-            let state = self.state_at(at, *index);
-            self.bodies[*index].turn_into(Segment {
-                course: Course::Lasting,
-                swing: None,
-                ..state
-            });
+            self.cut_lasting(at, *index);
         }
         let step = tolerance::LASTING_STEP_S;
         let next = (libm::floor(at / step + 0.5) + 1.0) * step;
@@ -240,6 +263,7 @@ impl EventDriven {
                 self.ledger.face_j += kinetic;
                 self.ledger.momentum.table -= momentum;
             } else {
+                body.leans = false;
                 let normal = kept[place].first().map_or(DVec3::Z, |(_, normal, _)| *normal);
                 body.turn_into(Segment {
                     end_s: until,

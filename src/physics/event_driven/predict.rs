@@ -26,7 +26,9 @@ impl EventDriven {
 
     /// Predicts the balls that an event at `at` changed.
     pub(super) fn predict(&mut self, at: Seconds, changed: &[usize]) {
-        for index in changed {
+        let mut changed = Changed::from_slice(changed);
+        self.begin_pieces(at, &mut changed);
+        for index in &changed {
             self.predict_own(at, *index);
             self.bodies[*index].pair = (f64::INFINITY, 0);
         }
@@ -46,7 +48,7 @@ impl EventDriven {
                 !changed.contains(&other) && !stale[..place].contains(&other)
             });
         }
-        self.predict_tip(at, changed);
+        self.predict_tip(at, &changed);
         for index in 0..self.bodies.len() {
             self.next[index] = self.bodies[index].next_s();
         }
@@ -126,24 +128,30 @@ impl EventDriven {
         let own: Segment = self.bodies[index].segment;
         let stands = self.bodies[index].stands();
         let (position, velocity) = (own.position_at(at), own.velocity_at(at));
-        let (radius, own_s) = (self.bodies[index].ball.radius_m, self.bodies[index].own_s());
+        let radius = self.bodies[index].ball.radius_m;
+        let own_s = self.bodies[index].own_s().min(own.end_s);
         let moves = self.bodies[index].ball.flags.integrate;
         for other in 0..self.bodies.len() {
             let body = &self.bodies[other];
             if other == index || !body.solid() || !wanted(other) || stands && body.stands() {
                 continue;
             }
-            let lasts = own.course == Course::Lasting && body.segment.course == Course::Lasting;
-            let horizon = own_s.min(own.end_s).min(body.own_s()).min(body.segment.end_s) - at;
+            let known = self.bodies[index].pair.0.max(body.pair.0);
+            let horizon = own_s.min(body.own_s()).min(body.segment.end_s).min(known) - at;
             let start = position - body.segment.position_at(at);
+            let distance = radius + body.ball.radius_m;
+            // A rough look at what both can reach spares most of the work while they hop.
+            let reach = self.bodies[index].reach_m(at, horizon) + body.reach_m(at, horizon);
+            let far = (distance + reach) * (1.0 + 1e-9);
+            if start.length_squared() > far * far {
+                continue;
+            }
+            let lasts = own.course == Course::Lasting && body.segment.course == Course::Lasting;
             let motion = Relative {
                 offset: start,
                 velocity: velocity - body.segment.velocity_at(at),
                 acceleration: own.acceleration - body.segment.acceleration,
             };
-            let distance = radius + body.ball.radius_m;
-            let known = self.bodies[index].pair.0.max(body.pair.0) - at;
-            let horizon = horizon.min(known);
             if motion.velocity == DVec3::ZERO && motion.acceleration == DVec3::ZERO
                 || !moves && !body.ball.flags.integrate
                 || lasts && start.length() - distance <= super::lasting::TOUCH_M

@@ -116,22 +116,28 @@ impl Segment {
     }
 
     /// Centre at `at` [m].
+    #[inline]
     pub fn position_at(&self, at: Seconds) -> DVec3 {
         let t = at - self.start_s;
-        if let Some(swing) = &self.swing {
-            let offset = self.position - swing.rest;
-            return swing.rest + swing.linear_after(offset, self.velocity, t).0;
+        match &self.swing {
+            None => self.position + (self.velocity + self.acceleration * (0.5 * t)) * t,
+            Some(swing) => swing.rest + self.swung(swing, t).0,
         }
-        self.position + (self.velocity + self.acceleration * (0.5 * t)) * t
     }
 
     /// Velocity at `at` [m/s].
+    #[inline]
     pub fn velocity_at(&self, at: Seconds) -> DVec3 {
-        if let Some(swing) = &self.swing {
-            let offset = self.position - swing.rest;
-            return swing.linear_after(offset, self.velocity, at - self.start_s).1;
+        let t = at - self.start_s;
+        match &self.swing {
+            None => self.velocity + self.acceleration * t,
+            Some(swing) => self.swung(swing, t).1,
         }
-        self.velocity + self.acceleration * (at - self.start_s)
+    }
+
+    #[cold]
+    fn swung(&self, swing: &Swing, t: Seconds) -> (DVec3, DVec3) {
+        swing.linear_after(self.position - swing.rest, self.velocity, t)
     }
 
     /// Spin about the normal after `t` of the segment [rad/s], and the angle turned by it [rad].

@@ -6,11 +6,10 @@
 
 use super::closing::{self, Relative};
 use super::segment::{Course, Segment};
-use super::terrain::{Feature, Terrain};
-use crate::physics::Work;
-use crate::physics::fixed_step::spatial_hash::Bounds;
+use super::terrain::{BESIDE_M, Block, Corner, Edge, Feature, Group, Terrain};
+use crate::physics::{Work, tolerance};
 use crate::units::Seconds;
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 
 /// What happens to a ball on the terrain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,28 +90,55 @@ struct Slice {
     position: DVec3,
     velocity: DVec3,
     acceleration: DVec3,
-    bounds: Bounds,
+}
+
+/// A ball around a stretch of the path of the centre.
+struct Span {
+    middle: DVec3,
+    /// How far from the middle the moving ball can touch something [m].
+    reach_m: f64,
+    /// How far beside a feature the middle must be for all of the path to be [m].
+    beside_m: f64,
+}
+
+impl Span {
+    /// Whether an edge may be met: beside one of its faces the face is nearer.
+    fn may_meet_edge(&self, edge: &Edge) -> bool {
+        let offset = self.middle - edge.from;
+        let along = offset.dot(edge.along);
+        let beside = |(_, inwards): &(u32, DVec3)| offset.dot(*inwards) > self.beside_m;
+        -self.beside_m <= along
+            && along <= edge.length_m + self.beside_m
+            && offset.length_squared() - along * along <= self.reach_m * self.reach_m
+            && !edge.sides.iter().any(beside)
+    }
+
+    /// Whether a corner may be met: beside one of its edges the edge is nearer.
+    fn may_meet_corner(&self, corner: &Corner) -> bool {
+        let offset = self.middle - corner.point;
+        let beside = |away: &DVec3| offset.dot(*away) > self.beside_m;
+        offset.length_squared() <= self.reach_m * self.reach_m && !corner.away.iter().any(beside)
+    }
 }
 
 impl Walk<'_> {
     fn run(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
         let on_main = self.held.len() == 1 && self.held[0] == self.terrain.main_patch();
         let mut now = from;
-        let mut cell = self.terrain.cell_of(self.segment.position_at(now));
+        let mut cell = self.terrain.place_of(self.segment.position_at(now));
         loop {
-            let leap = self.terrain.leap(cell, on_main);
-            let around = (leap - 1).max(0);
-            let (low, high) = (cell - around, cell + around);
-            let (exit, next) = self.exit(now, until, low, high);
-            if leap == 0
-                && let Some(meeting) = self.search(cell, now, exit, work)
+            let block = self.terrain.block_at(cell, on_main);
+            let (exit, next) = self.exit(now, until, &block);
+            if block.lists()
+                && let Some(meeting) = self.search(&block, now, exit, work)
             {
                 return Some(meeting);
             }
+            let Block { low, high, .. } = block;
             let (axis, up) = next?;
             now = exit;
             // The other coordinates follow from where the path is; this one is known.
-            let inside = self.terrain.cell_of(self.segment.position_at(now)).clamp(low, high);
+            let inside = self.terrain.place_of(self.segment.position_at(now)).clamp(low, high);
             cell = inside;
             cell[axis] = if up { high[axis] + 1 } else { low[axis] - 1 };
             let beyond =
@@ -136,10 +162,9 @@ impl Walk<'_> {
         &self,
         now: Seconds,
         until: Seconds,
-        low: IVec3,
-        high: IVec3,
+        block: &Block,
     ) -> (Seconds, Option<(usize, bool)>) {
-        let (min, max) = self.terrain.block(low, high);
+        let (min, max) = self.terrain.corners_of(block);
         let position = self.segment.position_at(now);
         let velocity = self.segment.velocity_at(now);
         let acceleration = self.segment.acceleration;
@@ -161,36 +186,40 @@ impl Walk<'_> {
         best
     }
 
-    fn search(&self, cell: IVec3, now: Seconds, exit: Seconds, work: &mut Work) -> Option<Meeting> {
-        let length = exit - now;
-        let position = self.segment.position_at(now);
-        let velocity = self.segment.velocity_at(now);
-        let control = position + velocity * (0.5 * length);
-        let end = self.segment.position_at(exit);
-        let bounds = Bounds::swept(position, end, self.radius_m).join(&Bounds::swept(
-            control,
-            control,
-            self.radius_m,
-        ));
-        let acceleration = self.segment.acceleration;
-        let mut slice = Slice { length, position, velocity, acceleration, bounds };
+    /// The first meeting inside a cell.
+    fn search(
+        &self,
+        block: &Block,
+        now: Seconds,
+        exit: Seconds,
+        work: &mut Work,
+    ) -> Option<Meeting> {
+        let span = self.span(now, exit);
+        let mut slice = Slice {
+            length: exit - now,
+            position: self.segment.position_at(now),
+            velocity: self.segment.velocity_at(now),
+            acceleration: self.segment.acceleration,
+        };
         let mut best: Option<Meeting> = None;
         let mut note = |slice: &mut Slice, time: Seconds, feature, normal, leaves| {
             slice.length = time;
             best = Some(Meeting { at: now + time, feature, normal, leaves });
         };
-
-        for group in self.terrain.groups_in(cell) {
+        for group in self.terrain.groups_in(block) {
             let feature = Feature::Patch(group.patch);
-            if !group.bounds.overlap(&slice.bounds) || self.is_held(feature) {
-                continue;
-            }
-            if let Some((time, normal)) = self.patch(group, &slice, work) {
+            let patch = &self.terrain.patches[group.patch as usize];
+            let height = patch.normal.dot(span.middle) - patch.offset;
+            if height.abs() <= span.reach_m
+                && !self.is_held(feature)
+                && let Some((time, normal)) = self.patch(group, &slice, work)
+            {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.edges_in(cell) {
-            if !self.terrain.edge_bounds(*number).overlap(&slice.bounds) {
+        for number in self.terrain.edges_in(block) {
+            let edge = &self.terrain.edges[*number as usize];
+            if !span.may_meet_edge(edge) {
                 continue;
             }
             let feature = Feature::Edge(*number);
@@ -199,40 +228,49 @@ impl Walk<'_> {
             {
                 note(&mut slice, time, feature, self.segment.normal, true);
             }
-            if self.terrain.edges[*number as usize].flat || self.is_held(feature) {
-                continue;
-            }
-            if let Some((time, normal)) = self.edge(*number, &slice, work) {
+            if !edge.flat
+                && !self.is_held(feature)
+                && let Some((time, normal)) = self.edge(*number, &slice, work)
+            {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.corners_in(cell) {
-            let point = self.terrain.corners[*number as usize].point;
-            let point_box = Bounds { min: point, max: point };
+        for number in self.terrain.corners_in(block) {
+            let corner = &self.terrain.corners[*number as usize];
             let feature = Feature::Corner(*number);
-            if !point_box.overlap(&slice.bounds) || self.is_held(feature) {
+            if !span.may_meet_corner(corner) || self.is_held(feature) {
                 continue;
             }
             work.face_tests += 1;
-            let motion = slice.relative_to(point);
+            let motion = slice.relative_to(corner.point);
             if let Some(time) = closing::spheres(&motion, self.radius_m, slice.length) {
-                let normal = (slice.at(time) - point).normalize_or(DVec3::Z);
+                let normal = (slice.at(time) - corner.point).normalize_or(DVec3::Z);
                 note(&mut slice, time, feature, normal, false);
             }
         }
         best
     }
 
+    /// A ball around the path from `now` to `exit`, which lies within the triangle of its ends and
+    /// its control point.
+    fn span(&self, now: Seconds, exit: Seconds) -> Span {
+        let position = self.segment.position_at(now);
+        let control = position + self.segment.velocity_at(now) * (0.5 * (exit - now));
+        let middle = 0.5 * (position + self.segment.position_at(exit));
+        let square = position.distance_squared(middle).max(control.distance_squared(middle));
+        let half_m = square.sqrt();
+        Span {
+            middle,
+            reach_m: half_m + self.radius_m + tolerance::SUPPORT_M,
+            beside_m: half_m + BESIDE_M,
+        }
+    }
+
     fn is_held(&self, feature: Feature) -> bool {
         self.held.iter().any(|held| self.terrain.belongs(feature, *held))
     }
 
-    fn patch(
-        &self,
-        group: &super::terrain::Group,
-        slice: &Slice,
-        work: &mut Work,
-    ) -> Option<(Seconds, DVec3)> {
+    fn patch(&self, group: &Group, slice: &Slice, work: &mut Work) -> Option<(Seconds, DVec3)> {
         let patch = &self.terrain.patches[group.patch as usize];
         let mut h = patch.normal.dot(slice.position) - patch.offset;
         let mut v = patch.normal.dot(slice.velocity);

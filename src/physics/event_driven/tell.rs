@@ -365,10 +365,8 @@ impl EventDriven {
                 woken.push(index);
             }
         }
-        for index in &woken {
-            self.begin_lasting(at, *index);
-        }
         if !woken.is_empty() {
+            self.begins.extend_from_slice(&woken);
             self.predict(at, &woken);
         }
     }

@@ -6,17 +6,19 @@
 //! a ball whose centre is in it can touch; cells where nothing is in reach, or nothing but the bed,
 //! know how far around them that holds, and are passed in leaps.
 
-use crate::mesh::{Mesh, Surface};
-use crate::physics::fixed_step::narrow::triangle_meets_box;
-use crate::physics::fixed_step::spatial_hash::Bounds;
+mod grid;
+mod patches;
+
+pub use grid::BESIDE_M;
+
+use crate::mesh::Surface;
 use crate::physics::tolerance;
 use crate::table::{Bed, Plane, Pocket, Table};
 use glam::{DVec3, IVec3};
 use smallvec::SmallVec;
-use std::collections::BTreeMap;
 
-/// Most cells along one axis; bounds the memory of huge meshes.
-const CELLS_MAX: i32 = 96;
+/// Triangles of one patch overlap by this, so that no foot falls between them [m].
+const SEAM_M: f64 = 1e-12;
 
 /// A part of the terrain that a ball can touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,7 +60,6 @@ pub struct Edge {
     pub flat: bool,
     /// What it counts as.
     pub surface: Surface,
-    bounds: Bounds,
 }
 
 /// Where edges meet.
@@ -68,6 +69,8 @@ pub struct Corner {
     pub point: DVec3,
     /// The patches around it.
     pub patches: SmallVec<[u32; 6]>,
+    /// Unit vectors along its edges, away from it.
+    pub away: SmallVec<[DVec3; 6]>,
     /// What it counts as.
     pub surface: Surface,
 }
@@ -79,12 +82,58 @@ pub struct Group {
     pub patch: u32,
     first: u32,
     count: u32,
-    /// Box around the faces.
-    pub bounds: Bounds,
 }
 
+/// A side of a triangle, as the line that a foot inside of the triangle is not beyond.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// Unit vector in the plane of the triangle.
+    inwards: DVec3,
+    /// Distance of the side from the origin along it [m].
+    offset: f64,
+}
+
+impl Side {
+    /// How far `point` is inside [m].
+    fn inside_m(&self, point: DVec3) -> f64 {
+        point.dot(self.inwards) - self.offset
+    }
+}
+
+/// The sides of a triangle that has an area.
+fn sides_of(triangle: &[DVec3; 3]) -> [Side; 3] {
+    let [a, b, c] = *triangle;
+    [(a, b, c), (b, c, a), (c, a, b)].map(|(from, to, third)| {
+        let along = (to - from).normalize_or(DVec3::X);
+        let across = third - from;
+        let inwards = (across - along * across.dot(along)).normalize_or(DVec3::ZERO);
+        Side { inwards, offset: inwards.dot(from) }
+    })
+}
+
+/// A block of cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Block {
+    /// The cell that it is; none if nothing is in reach.
+    node: Option<usize>,
+    /// Its first and last smallest cell along each axis.
+    pub low: IVec3,
+    /// See `low`.
+    pub high: IVec3,
+}
+
+impl Block {
+    /// Whether something may be in reach.
+    pub fn lists(&self) -> bool {
+        self.node.is_some()
+    }
+}
+
+/// A cell: ranges of the lists, or eight smaller ones.
 #[derive(Debug, Clone, Copy, Default)]
-struct Cell {
+struct Node {
+    /// The first of its parts; 0 if it is not cut.
+    children: u32,
     groups: (u32, u32),
     edges: (u32, u32),
     corners: (u32, u32),
@@ -108,18 +157,29 @@ pub struct Terrain {
     /// Nothing is below this [m].
     pub lowest_m: f64,
     triangles: Vec<[DVec3; 3]>,
+    /// The sides of each triangle.
+    sides: Vec<[Side; 3]>,
+    /// The patch of each triangle.
+    faces: Vec<u32>,
+    /// The largest ball that the grid is made for [m].
+    radius_m: f64,
     /// The patch that most faces belong to; cells with nothing else in reach are passed in leaps by
     /// balls that it carries.
     main: u32,
+    /// Where the grid begins [m].
     origin: DVec3,
+    /// Size of the smallest cells [m].
     cell_m: DVec3,
+    /// How many of them there are along each axis.
     count: IVec3,
-    cells: Vec<Cell>,
+    /// Cells: first the coarse ones in order, then their parts.
+    nodes: Vec<Node>,
     groups: Vec<Group>,
-    cell_triangles: Vec<u32>,
-    cell_edges: Vec<u32>,
-    cell_corners: Vec<u32>,
-    /// Cells around each, itself included, in which nothing is in reach; 0 where something is.
+    listed_triangles: Vec<u32>,
+    listed_edges: Vec<u32>,
+    listed_corners: Vec<u32>,
+    /// Coarse cells around each, itself included, in which nothing is in reach; 0 where something
+    /// is.
     empty: Vec<u8>,
     /// The same with the main patch left aside.
     bare: Vec<u8>,
@@ -142,10 +202,35 @@ impl Terrain {
         let of_planes = table.planes.iter().map(|plane| plane.point.z);
         terrain.lowest_m = of_vertices.chain(of_planes).fold(0.0, f64::min);
         if !table.mesh.faces.is_empty() {
-            let faces = merge(&table.mesh, &mut terrain);
-            terrain.fill_grid(&faces, radius_m);
+            terrain.faces = patches::merge(&table.mesh, &mut terrain);
+            terrain.sides = terrain.triangles.iter().map(sides_of).collect();
         }
+        terrain.fill_grid(radius_m);
         terrain
+    }
+
+    /// The same table prepared for balls up to another radius.
+    pub fn for_balls_of(&self, radius_m: f64) -> Self {
+        let mut terrain = Terrain {
+            planes: self.planes.clone(),
+            patches: self.patches.clone(),
+            edges: self.edges.clone(),
+            corners: self.corners.clone(),
+            pockets: self.pockets.clone(),
+            triangles: self.triangles.clone(),
+            sides: self.sides.clone(),
+            faces: self.faces.clone(),
+            bed: self.bed,
+            lowest_m: self.lowest_m,
+            ..Terrain::default()
+        };
+        terrain.fill_grid(radius_m);
+        terrain
+    }
+
+    /// The largest ball that it is prepared for [m].
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
     }
 
     /// What a feature is made of.
@@ -163,44 +248,9 @@ impl Terrain {
         self.bed.map(|bed| bed.head_string_x())
     }
 
-    /// The cell that holds `point`; outside of the grid it has coordinates that do not exist.
-    pub fn cell_of(&self, point: DVec3) -> IVec3 {
-        ((point - self.origin) / self.cell_m)
-            .floor()
-            .clamp(DVec3::splat(-2.0), self.count.as_dvec3() + 1.0)
-            .as_ivec3()
-    }
-
-    fn index(&self, cell: IVec3) -> Option<usize> {
-        let inside = cell.cmpge(IVec3::ZERO).all() && cell.cmplt(self.count).all();
-        inside.then(|| ((cell.z * self.count.y + cell.y) * self.count.x + cell.x) as usize)
-    }
-
-    /// How many cells around `cell`, itself included, hold nothing in reach of a ball that
-    /// `on_main` says is carried by the main patch; 0 if this one does. Outside of the grid: 1.
-    pub fn leap(&self, cell: IVec3, on_main: bool) -> i32 {
-        let rings = if on_main { &self.bare } else { &self.empty };
-        self.index(cell).map_or(1, |index| i32::from(rings[index]))
-    }
-
-    /// How many cells the grid has along an axis.
-    pub fn cells_along(&self, axis: usize) -> i32 {
-        self.count[axis]
-    }
-
-    /// The corners of a block of cells [m]; infinite where it goes beyond the grid.
-    pub fn block(&self, low: IVec3, high: IVec3) -> (DVec3, DVec3) {
-        let min = self.origin + low.as_dvec3() * self.cell_m;
-        let max = self.origin + (high + 1).as_dvec3() * self.cell_m;
-        (
-            DVec3::select(low.cmplt(IVec3::ZERO), DVec3::NEG_INFINITY, min),
-            DVec3::select(high.cmpge(self.count), DVec3::INFINITY, max),
-        )
-    }
-
     /// Whether a mesh exists at all.
     pub fn has_mesh(&self) -> bool {
-        !self.cells.is_empty()
+        !self.nodes.is_empty()
     }
 
     /// The number of the main patch.
@@ -208,38 +258,29 @@ impl Terrain {
         Feature::Patch(self.main)
     }
 
-    /// The faces of each patch that a ball in `cell` can reach.
-    pub fn groups_in(&self, cell: IVec3) -> &[Group] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].groups);
+    /// The faces of each patch that a ball in a block can reach.
+    pub fn groups_in(&self, block: &Block) -> &[Group] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].groups);
         &self.groups[range.0 as usize..range.1 as usize]
     }
 
-    /// The edges that a ball in `cell` can reach.
-    pub fn edges_in(&self, cell: IVec3) -> &[u32] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].edges);
-        &self.cell_edges[range.0 as usize..range.1 as usize]
+    /// The edges that a ball in a block can reach.
+    pub fn edges_in(&self, block: &Block) -> &[u32] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].edges);
+        &self.listed_edges[range.0 as usize..range.1 as usize]
     }
 
-    /// The corners that a ball in `cell` can reach.
-    pub fn corners_in(&self, cell: IVec3) -> &[u32] {
-        let range = self.index(cell).map_or((0, 0), |index| self.cells[index].corners);
-        &self.cell_corners[range.0 as usize..range.1 as usize]
-    }
-
-    /// Box around an edge.
-    pub fn edge_bounds(&self, edge: u32) -> &Bounds {
-        &self.edges[edge as usize].bounds
+    /// The corners that a ball in a block can reach.
+    pub fn corners_in(&self, block: &Block) -> &[u32] {
+        let range = block.node.map_or((0, 0), |node| self.nodes[node].corners);
+        &self.listed_corners[range.0 as usize..range.1 as usize]
     }
 
     /// Whether the foot of the perpendicular from `point` lies in one of the faces of a group.
     pub fn holds(&self, group: &Group, point: DVec3) -> bool {
-        let normal = self.patches[group.patch as usize].normal;
         let range = group.first as usize..(group.first + group.count) as usize;
-        self.cell_triangles[range].iter().any(|triangle| {
-            let [a, b, c] = self.triangles[*triangle as usize];
-            let side = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal);
-            let (ab, bc, ca) = (side(a, b), side(b, c), side(c, a));
-            (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0)
+        self.listed_triangles[range].iter().any(|triangle| {
+            self.sides[*triangle as usize].iter().all(|side| side.inside_m(point) >= -SEAM_M)
         })
     }
 
@@ -259,8 +300,11 @@ impl Terrain {
             let distance = (centre - plane.point).dot(plane.normal);
             note(Feature::Plane(number as u32), plane.normal, distance);
         }
-        let cell = self.cell_of(centre);
-        for group in self.groups_in(cell) {
+        if !self.has_mesh() {
+            return found;
+        }
+        let block = self.block_at(self.place_of(centre), false);
+        for group in self.groups_in(&block) {
             let patch = &self.patches[group.patch as usize];
             let height = patch.normal.dot(centre) - patch.offset;
             if height.abs() <= reach_m && self.holds(group, centre) {
@@ -268,7 +312,7 @@ impl Terrain {
                 note(Feature::Patch(group.patch), normal, height.abs());
             }
         }
-        for number in self.edges_in(cell) {
+        for number in self.edges_in(&block) {
             let edge = &self.edges[*number as usize];
             let along = (centre - edge.from).dot(edge.along);
             if !edge.flat && 0.0 <= along && along <= edge.length_m {
@@ -277,7 +321,7 @@ impl Terrain {
                 note(Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
             }
         }
-        for number in self.corners_in(cell) {
+        for number in self.corners_in(&block) {
             let offset = centre - self.corners[*number as usize].point;
             note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
         }
@@ -313,276 +357,10 @@ impl Terrain {
             }
         }
     }
-
-    fn fill_grid(&mut self, faces: &[u32], radius_m: f64) {
-        let reach = DVec3::splat(radius_m * 1.001 + 1e-6);
-        let corners = || self.triangles.iter().flatten().copied();
-        let low = corners().fold(DVec3::INFINITY, DVec3::min) - reach;
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max) + reach;
-        let size = high - low;
-        let wanted = 2.0 * radius_m;
-        self.origin = low;
-        self.count = (size / wanted).ceil().as_ivec3().clamp(IVec3::ONE, IVec3::splat(CELLS_MAX));
-        self.cell_m = size / self.count.as_dvec3();
-
-        let total = (self.count.x * self.count.y * self.count.z) as usize;
-        let mut groups: Vec<Vec<(u32, u32)>> = vec![Vec::new(); total];
-        let mut edges: Vec<Vec<u32>> = vec![Vec::new(); total];
-        let mut corner_lists: Vec<Vec<u32>> = vec![Vec::new(); total];
-        for (number, triangle) in self.triangles.iter().enumerate() {
-            self.visit(triangle, reach.x, |cell| groups[cell].push((faces[number], number as u32)));
-        }
-        for (number, edge) in self.edges.iter().enumerate() {
-            let end = edge.from + edge.along * edge.length_m;
-            self.visit(&[edge.from, end, end], reach.x, |cell| edges[cell].push(number as u32));
-        }
-        for (number, corner) in self.corners.iter().enumerate() {
-            self.visit(&[corner.point; 3], reach.x, |cell| corner_lists[cell].push(number as u32));
-        }
-
-        // Which patch is named most often in cells that name nothing else.
-        let mut alone: BTreeMap<u32, u32> = BTreeMap::new();
-        let single = |cell: usize| {
-            let first = groups[cell].first()?.0;
-            let same = groups[cell].iter().all(|(patch, _)| *patch == first);
-            (same && edges[cell].is_empty() && corner_lists[cell].is_empty()).then_some(first)
-        };
-        for cell in 0..total {
-            if let Some(patch) = single(cell) {
-                *alone.entry(patch).or_default() += 1;
-            }
-        }
-        let most = alone.iter().max_by_key(|(patch, count)| (**count, u32::MAX - **patch));
-        self.main = most.map_or(u32::MAX, |(patch, _)| *patch);
-        let nothing = |cell: usize| {
-            groups[cell].is_empty() && edges[cell].is_empty() && corner_lists[cell].is_empty()
-        };
-        let empty: Vec<bool> = (0..total).map(nothing).collect();
-        let bare: Vec<bool> =
-            (0..total).map(|cell| empty[cell] || single(cell) == Some(self.main)).collect();
-        self.empty = rings(&empty, self.count);
-        self.bare = rings(&bare, self.count);
-
-        for cell in 0..total {
-            let mut own = Cell::default();
-            own.groups.0 = self.groups.len() as u32;
-            groups[cell].sort_unstable();
-            for run in groups[cell].chunk_by(|a, b| a.0 == b.0) {
-                let first = self.cell_triangles.len() as u32;
-                self.cell_triangles.extend(run.iter().map(|(_, triangle)| *triangle));
-                let points =
-                    run.iter().flat_map(|(_, triangle)| self.triangles[*triangle as usize]);
-                let bounds = bounds_of(points);
-                let (patch, count) = (run[0].0, run.len() as u32);
-                self.groups.push(Group { patch, first, count, bounds });
-            }
-            own.groups.1 = self.groups.len() as u32;
-            own.edges.0 = self.cell_edges.len() as u32;
-            self.cell_edges.append(&mut edges[cell]);
-            own.edges.1 = self.cell_edges.len() as u32;
-            own.corners.0 = self.cell_corners.len() as u32;
-            self.cell_corners.append(&mut corner_lists[cell]);
-            own.corners.1 = self.cell_corners.len() as u32;
-            self.cells.push(own);
-        }
-    }
-
-    /// Calls `found` for each cell in which a ball's centre may lie when it touches the triangle.
-    fn visit(&self, triangle: &[DVec3; 3], reach: f64, mut found: impl FnMut(usize)) {
-        let bounds = bounds_of(triangle.iter().copied());
-        let last = self.count - 1;
-        let low = self.cell_of(bounds.min - reach).clamp(IVec3::ZERO, last);
-        let high = self.cell_of(bounds.max + reach).clamp(IVec3::ZERO, last);
-        for z in low.z..=high.z {
-            for y in low.y..=high.y {
-                for x in low.x..=high.x {
-                    let cell = IVec3::new(x, y, z);
-                    let min = self.origin + cell.as_dvec3() * self.cell_m;
-                    let cell_box = Bounds { min, max: min + self.cell_m };
-                    if triangle_meets_box(triangle, &cell_box, reach)
-                        && let Some(index) = self.index(cell)
-                    {
-                        found(index);
-                    }
-                }
-            }
-        }
-    }
 }
 
-/// For each cell the number of rings around it, itself included, in which all cells are `free`.
-/// Beyond the grid everything is.
-fn rings(free: &[bool], count: IVec3) -> Vec<u8> {
-    let mut ring: Vec<u8> = free.iter().map(|free| if *free { u8::MAX } else { 0 }).collect();
-    let index = |x: i32, y: i32, z: i32| ((z * count.y + y) * count.x + x) as usize;
-    // Chebyshev distance separates: axis by axis, there and back, would give the city distance;
-    // the full neighbourhood in two passes gives it exactly.
-    let neighbours: Vec<IVec3> = (0..27)
-        .map(|k| IVec3::new(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1))
-        .filter(|n| n.z < 0 || n.z == 0 && (n.y < 0 || n.y == 0 && n.x < 0))
-        .collect();
-    for forwards in [true, false] {
-        let total = count.x * count.y * count.z;
-        for step in 0..total {
-            let place = if forwards { step } else { total - 1 - step };
-            let cell =
-                IVec3::new(place % count.x, place / count.x % count.y, place / (count.x * count.y));
-            let mut least = ring[place as usize];
-            for offset in &neighbours {
-                let other = if forwards { cell + *offset } else { cell - *offset };
-                if other.cmpge(IVec3::ZERO).all() && other.cmplt(count).all() {
-                    least = least.min(ring[index(other.x, other.y, other.z)].saturating_add(1));
-                }
-            }
-            ring[place as usize] = least;
-        }
-    }
-    ring
-}
-
-fn bounds_of(points: impl Iterator<Item = DVec3>) -> Bounds {
-    let start = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-    points.fold(start, |b, p| Bounds { min: b.min.min(p), max: b.max.max(p) })
-}
-
-/// Which of the surfaces around an edge or corner it counts as.
-fn rank(surface: Surface) -> u8 {
-    match surface {
-        Surface::Cushion(_) => 6,
-        Surface::Pocket(_) => 5,
-        Surface::Wood => 4,
-        Surface::Obstacle => 3,
-        Surface::Cloth => 2,
-        Surface::PocketBottom(_) => 1,
-        Surface::Floor => 0,
-    }
-}
-
-/// Merges coplanar neighbours into patches and finds edges and corners; returns each face's patch.
-fn merge(mesh: &Mesh, terrain: &mut Terrain) -> Vec<u32> {
-    // Corners at the same place are one, whatever their numbers.
-    let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
-    let mut points: Vec<DVec3> = Vec::new();
-    let welded: Vec<u32> = mesh
-        .vertices
-        .iter()
-        .map(|vertex| {
-            let key = (*vertex + 0.0).to_array().map(f64::to_bits);
-            *places.entry(key).or_insert_with(|| {
-                points.push(*vertex);
-                points.len() as u32 - 1
-            })
-        })
-        .collect();
-    struct Flat {
-        corners: [u32; 3],
-        normal: DVec3,
-        surface: Surface,
-    }
-    let mut flats: Vec<Flat> = Vec::new();
-    for face in &mesh.faces {
-        let corners = face.corners.map(|corner| welded[corner as usize]);
-        let [a, b, c] = corners.map(|corner| points[corner as usize]);
-        // Faces without area touch nothing.
-        if let Some(normal) = (b - a).cross(c - a).try_normalize() {
-            flats.push(Flat { corners, normal, surface: face.surface });
-        }
-    }
-
-    let mut around: BTreeMap<(u32, u32), SmallVec<[u32; 2]>> = BTreeMap::new();
-    for (number, flat) in flats.iter().enumerate() {
-        let [a, b, c] = flat.corners;
-        for (a, b) in [(a, b), (b, c), (c, a)] {
-            around.entry((a.min(b), a.max(b))).or_default().push(number as u32);
-        }
-    }
-
-    // Spread from a first face to all neighbours that lie in its plane.
-    let mut patch_of = vec![u32::MAX; flats.len()];
-    for seed in 0..flats.len() {
-        if patch_of[seed] != u32::MAX {
-            continue;
-        }
-        let patch = terrain.patches.len() as u32;
-        let (normal, surface) = (flats[seed].normal, flats[seed].surface);
-        let offset = normal.dot(points[flats[seed].corners[0] as usize]);
-        terrain.patches.push(Patch { normal, offset, surface });
-        patch_of[seed] = patch;
-        let mut open = vec![seed];
-        while let Some(face) = open.pop() {
-            let [a, b, c] = flats[face].corners;
-            for (a, b) in [(a, b), (b, c), (c, a)] {
-                for other in &around[&(a.min(b), a.max(b))] {
-                    let other = *other as usize;
-                    let flat = &flats[other];
-                    let level = |corner: &u32| {
-                        (normal.dot(points[*corner as usize]) - offset).abs() <= tolerance::MERGE_M
-                    };
-                    if patch_of[other] == u32::MAX
-                        && flat.surface == surface
-                        && flat.normal.dot(normal).abs() > 1.0 - tolerance::MERGE_NORMAL
-                        && flat.corners.iter().all(level)
-                    {
-                        patch_of[other] = patch;
-                        open.push(other);
-                    }
-                }
-            }
-        }
-    }
-
-    let mut ends: BTreeMap<u32, (SmallVec<[u32; 6]>, Surface)> = BTreeMap::new();
-    for ((a, b), faces) in &around {
-        let mut sides: SmallVec<[(u32, DVec3); 2]> = SmallVec::new();
-        let (from, to) = (points[*a as usize], points[*b as usize]);
-        let along = (to - from).normalize_or(DVec3::X);
-        let mut inner = faces.len() == 2;
-        for face in faces {
-            let flat = &flats[*face as usize];
-            let third = flat.corners.iter().find(|corner| **corner != *a && **corner != *b);
-            let apex = points[*third.unwrap_or(a) as usize] - from;
-            let inwards = (apex - along * apex.dot(along)).normalize_or(flat.normal);
-            sides.push((patch_of[*face as usize], inwards));
-        }
-        let normals: SmallVec<[DVec3; 2]> =
-            faces.iter().map(|face| flats[*face as usize].normal).collect();
-        let flat = inner
-            && normals[0].dot(normals[1]).abs() > 1.0 - tolerance::MERGE_NORMAL
-            && sides[0].1.dot(sides[1].1) < 0.0;
-        inner &= flat && sides[0].0 == sides[1].0;
-        if inner {
-            continue;
-        }
-        let surfaces = faces.iter().map(|face| flats[*face as usize].surface);
-        let surface = surfaces.max_by_key(|s| rank(*s)).unwrap_or(Surface::Obstacle);
-        if !flat {
-            for end in [*a, *b] {
-                let (patches, counts_as) =
-                    ends.entry(end).or_insert_with(|| (SmallVec::new(), surface));
-                for (patch, _) in &sides {
-                    if !patches.contains(patch) {
-                        patches.push(*patch);
-                    }
-                }
-                if rank(*counts_as) < rank(surface) {
-                    *counts_as = surface;
-                }
-            }
-        }
-        terrain.edges.push(Edge {
-            from,
-            along,
-            length_m: from.distance(to),
-            sides,
-            flat,
-            surface,
-            bounds: bounds_of([from, to].into_iter()),
-        });
-    }
-    for (end, (patches, surface)) in ends {
-        terrain.corners.push(Corner { point: points[end as usize], patches, surface });
-    }
-    terrain.triangles =
-        flats.iter().map(|flat| flat.corners.map(|corner| points[corner as usize])).collect();
-    patch_of
+/// The corners of the box around some points.
+fn bounds_of(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.fold(start, |(low, high), p| (low.min(p), high.max(p)))
 }

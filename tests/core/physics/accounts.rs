@@ -19,7 +19,7 @@ fn adds_up(simulation: &Simulation, what: &str) {
 }
 
 fn profiles() -> [PhysicsSettings; 2] {
-    [PhysicsSettings::default(), of_2009()]
+    [stepping(), of_2009()]
 }
 
 #[test]

@@ -60,13 +60,13 @@ fn the_friction_clamp_throws_twice_as_much_as_spheres_do() {
         let cut = 0.2;
         1.0 - object_deg(settings, grips, cut, 0.021) / cut
     };
-    assert!((ratio(&PhysicsSettings::default()) - 0.150_38).abs() < 1e-3);
+    assert!((ratio(&stepping()) - 0.150_38).abs() < 1e-3);
     assert!((ratio(&of_2009()) - 0.300_75).abs() < 1e-3, "{}", ratio(&of_2009()));
 }
 
 #[test]
 fn ball_friction_can_be_switched_off() {
-    for profile in [PhysicsSettings::default(), of_2009()] {
+    for profile in [stepping(), of_2009()] {
         let settings = PhysicsSettings { ball_friction: false, ..profile };
         assert_eq!(Parameters::of(&settings).ball.friction, 0.0);
         let ball = Parameters::of(&settings).ball;
@@ -89,7 +89,7 @@ fn lying_balls_hop_in_2009_by_less_than_a_tenth_of_a_millimetre_and_not_at_all_n
         }
         highest
     };
-    assert_eq!(highest(&PhysicsSettings::default()), 0.0);
+    assert_eq!(highest(&stepping()), 0.0);
     let hop = highest(&of_2009());
     assert!(1e-5 < hop && hop < 1.6e-4, "{hop}");
 }
@@ -112,7 +112,7 @@ fn only_the_deepest_face_acts_in_2009_and_all_act_now() {
         run(&mut world, 0.004);
         world.sample(BallId(0), 0.004).unwrap().velocity
     };
-    let now = first_step(&PhysicsSettings::default());
+    let now = first_step(&stepping());
     assert!(now.x < 0.0 && now.y < 0.0, "{now}");
     let then = first_step(&of_2009());
     assert!(then.x * then.y < 0.0, "{then}");
@@ -130,6 +130,6 @@ fn a_fast_small_ball_tunnels_in_2009() {
         run(&mut world, 0.1);
         state(&world, 0).position.x
     };
-    assert!(run_on(&PhysicsSettings::default()) < -radius_m);
+    assert!(run_on(&stepping()) < -radius_m);
     assert!(0.5 < run_on(&of_2009()));
 }

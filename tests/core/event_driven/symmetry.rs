@@ -1,0 +1,81 @@
+//! What must not matter: left and right, and which ball has which number.
+
+use super::exact;
+use super::random::{random_shot, shots};
+use crate::physics::scenes::world;
+use glam::DVec3;
+use hapticbillard::ball::{Ball, BallState};
+use hapticbillard::events::FactSet;
+use hapticbillard::ids::BallId;
+use hapticbillard::table::Table;
+
+fn mirrored(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
+    let mirror = |v: DVec3| DVec3::new(v.x, -v.y, v.z);
+    // A spin is no arrow: its mirror image turns the other way.
+    let turned = |v: DVec3| DVec3::new(-v.x, v.y, -v.z);
+    balls
+        .iter()
+        .map(|(ball, state)| {
+            let state = BallState {
+                position: mirror(state.position),
+                velocity: mirror(state.velocity),
+                angular_velocity: turned(state.angular_velocity),
+                ..state.clone()
+            };
+            (ball.clone(), state)
+        })
+        .collect()
+}
+
+fn renumbered(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
+    let last = balls.len() as u16 - 1;
+    balls
+        .iter()
+        .map(|(ball, state)| {
+            let id = BallId(last - ball.id.0);
+            (Ball { id, ..ball.clone() }, BallState { id, ..state.clone() })
+        })
+        .collect()
+}
+
+/// Where the balls come to rest, in the order of their numbers; none if they do not within a
+/// minute.
+fn ends(table: &Table, balls: &[(Ball, BallState)]) -> Vec<DVec3> {
+    let mut simulation = world(table, balls, &exact());
+    simulation.advance(60.0, FactSet::NONE, &mut Vec::new()).unwrap();
+    simulation.snapshot(60.0).balls.iter().map(|ball| ball.position).collect()
+}
+
+/// The largest distance of two lists of places [m].
+fn apart(one: &[DVec3], other: &[DVec3]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_mirrored_shot_ends_mirrored_and_numbers_do_not_matter() {
+    let table = Table::preset("pool-9ft").unwrap();
+    let (mut small, mut breaks) = (Vec::new(), Vec::new());
+    for case in 0..shots(40) {
+        let balls = random_shot(case);
+        let straight = ends(&table, &balls);
+        let mut image = ends(&table, &mirrored(&balls));
+        for place in &mut image {
+            place.y = -place.y;
+        }
+        let mut other = ends(&table, &renumbered(&balls));
+        other.reverse();
+        let list = if balls.len() <= 4 { &mut small } else { &mut breaks };
+        list.push((apart(&straight, &other), apart(&straight, &image), case));
+    }
+    // Up to four balls the numbers change nothing at all; the mirror image is one to rounding.
+    for (other, image, case) in &small {
+        assert_eq!(*other, 0.0, "case {case}");
+        assert!(*image < 1e-9, "case {case}: {image}");
+    }
+    // A break multiplies rounding; nearly all end within a micrometre.
+    let far = |apart: f64| apart > 1e-6;
+    let renumbered = breaks.iter().filter(|(other, ..)| far(*other)).count();
+    let mirrored = breaks.iter().filter(|(_, image, _)| far(*image)).count();
+    assert!(renumbered * 100 <= breaks.len(), "{renumbered} of {}", breaks.len());
+    assert!(mirrored * 100 <= breaks.len(), "{mirrored} of {}", breaks.len());
+}
