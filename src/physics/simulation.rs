@@ -117,7 +117,7 @@ impl Simulation {
             Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),
             Engine::FixedStep(solver) => Engine::FixedStep(Box::new(solver.with_balls(balls)?)),
         };
-        Ok(Simulation { engine, now_s: 0.0 })
+        Ok(Simulation { engine, now_s: 0.0, tip_radius_m: self.tip_radius_m })
     }
 
     /// The time reached [s].
