@@ -66,8 +66,10 @@ pub struct Seen {
     pub is_placed: bool,
     /// What the rules said of every shot.
     pub verdicts: Vec<Arc<Verdict>>,
-    /// Every stroke.
+    /// Every contact of tip and cue ball.
     pub strokes: Vec<Struck>,
+    /// A stroke was made and nothing was said of it yet.
+    pub is_rolling: bool,
     /// The table.
     pub table: Arc<Snapshot>,
 }
@@ -101,7 +103,10 @@ impl Participant for Watcher {
                     seen.turn = Some((delivered.tick, turn.clone()));
                     seen.is_placed = false;
                 }
-                Event::Verdict(verdict) => seen.verdicts.push(verdict.clone()),
+                Event::Verdict(verdict) => {
+                    seen.verdicts.push(verdict.clone());
+                    seen.is_rolling = false;
+                }
                 Event::Fact(fact) => match fact.kind {
                     FactKind::BallPlaced { ok, .. } => seen.is_placed = ok,
                     FactKind::CueBallStruck { position_m, .. } => {
@@ -110,6 +115,7 @@ impl Participant for Watcher {
                         let radius_m = hapticbillard::ball::POOL_RADIUS_M;
                         let height = position_m.z / radius_m - 1.0;
                         seen.strokes.push(Struck { player, height });
+                        seen.is_rolling = true;
                     }
                     _ => {}
                 },
