@@ -77,6 +77,12 @@ pub struct Seen {
 #[derive(Clone, Default)]
 struct Watcher(Arc<Mutex<Seen>>);
 
+impl Watcher {
+    fn seen(&self) -> Seen {
+        self.0.lock().unwrap().clone()
+    }
+}
+
 impl Participant for Watcher {
     fn source(&self) -> Source {
         Source::Runtime
@@ -199,7 +205,8 @@ impl Desk {
             if found.is_some() {
                 return found;
             }
-            self.event(&format!("sleep {LOOK_S}"));
+            let slept = Command::new("sleep").arg(LOOK_S.to_string()).status();
+            assert!(slept.is_ok_and(|status| status.success()), "sleep");
         }
         look()
     }
@@ -277,8 +284,7 @@ impl Desk {
             ..lockstep::Setup::headless(Tick(7_200_000))
         };
         lockstep::run(cast, setup).unwrap();
-        let seen = watcher.0.lock().unwrap().clone();
-        seen
+        watcher.seen()
     }
 
     /// The last tick in which anything happened: physics saw something, or somebody acted.
@@ -478,7 +484,8 @@ pub fn has(tool: &str) -> bool {
 /// A display of its own.
 pub fn display() -> Option<(Running, String)> {
     let mut server = Command::new("Xvfb")
-        .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"])
+        // Without a reset when the last client leaves: the next one would be refused meanwhile.
+        .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"])
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
