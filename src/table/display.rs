@@ -105,7 +105,7 @@ impl Table {
     }
 
     fn bare_mesh(&self) -> Vec<DisplayPart> {
-        let kinds: [(&str, Material, fn(Surface) -> bool); 5] = [
+        let kinds: [SurfaceKind; 5] = [
             ("ground", Material::Cloth, |surface| surface == Surface::Cloth),
             ("wood", Material::Wood, |surface| surface == Surface::Wood),
             ("obstacles", Material::Casting, |surface| {
@@ -129,6 +129,9 @@ impl Table {
             .collect()
     }
 }
+
+/// Name, material, and which surfaces of a mesh it takes.
+type SurfaceKind = (&'static str, Material, fn(Surface) -> bool);
 
 /// Name, material, and which parts of the body it takes.
 type Kind = (&'static str, Material, fn(Part) -> bool);

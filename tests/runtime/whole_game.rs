@@ -106,6 +106,8 @@ fn play(desk: &Desk, table: &Table) -> Seen {
             return seen;
         }
         let (tick, turn) = seen.turn.clone().expect("a turn");
+        // A shot that was made has a verdict, or its balls roll for ever: then nobody is called.
+        assert!(!seen.is_rolling, "balls that never come to rest");
         assert_eq!(turn.player, PlayerId::ONE, "the computer waits for nobody");
         desk.reach(tick);
 

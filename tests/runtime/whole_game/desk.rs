@@ -66,14 +66,22 @@ pub struct Seen {
     pub is_placed: bool,
     /// What the rules said of every shot.
     pub verdicts: Vec<Arc<Verdict>>,
-    /// Every stroke.
+    /// Every contact of tip and cue ball.
     pub strokes: Vec<Struck>,
+    /// A stroke was made and nothing was said of it yet.
+    pub is_rolling: bool,
     /// The table.
     pub table: Arc<Snapshot>,
 }
 
 #[derive(Clone, Default)]
 struct Watcher(Arc<Mutex<Seen>>);
+
+impl Watcher {
+    fn seen(&self) -> Seen {
+        self.0.lock().unwrap().clone()
+    }
+}
 
 impl Participant for Watcher {
     fn source(&self) -> Source {
@@ -101,7 +109,10 @@ impl Participant for Watcher {
                     seen.turn = Some((delivered.tick, turn.clone()));
                     seen.is_placed = false;
                 }
-                Event::Verdict(verdict) => seen.verdicts.push(verdict.clone()),
+                Event::Verdict(verdict) => {
+                    seen.verdicts.push(verdict.clone());
+                    seen.is_rolling = false;
+                }
                 Event::Fact(fact) => match fact.kind {
                     FactKind::BallPlaced { ok, .. } => seen.is_placed = ok,
                     FactKind::CueBallStruck { position_m, .. } => {
@@ -110,6 +121,7 @@ impl Participant for Watcher {
                         let radius_m = hapticbillard::ball::POOL_RADIUS_M;
                         let height = position_m.z / radius_m - 1.0;
                         seen.strokes.push(Struck { player, height });
+                        seen.is_rolling = true;
                     }
                     _ => {}
                 },
@@ -193,7 +205,8 @@ impl Desk {
             if found.is_some() {
                 return found;
             }
-            self.event(&format!("sleep {LOOK_S}"));
+            let slept = Command::new("sleep").arg(LOOK_S.to_string()).status();
+            assert!(slept.is_ok_and(|status| status.success()), "sleep");
         }
         look()
     }
@@ -271,8 +284,7 @@ impl Desk {
             ..lockstep::Setup::headless(Tick(7_200_000))
         };
         lockstep::run(cast, setup).unwrap();
-        let seen = watcher.0.lock().unwrap().clone();
-        seen
+        watcher.seen()
     }
 
     /// The last tick in which anything happened: physics saw something, or somebody acted.
@@ -472,7 +484,8 @@ pub fn has(tool: &str) -> bool {
 /// A display of its own.
 pub fn display() -> Option<(Running, String)> {
     let mut server = Command::new("Xvfb")
-        .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp"])
+        // Without a reset when the last client leaves: the next one would be refused meanwhile.
+        .args(["-displayfd", "1", "-screen", "0", "800x600x24", "-nolisten", "tcp", "-noreset"])
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()
