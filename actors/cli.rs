@@ -23,6 +23,8 @@ mod rules;
 
 mod validate;
 
+mod report;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -68,6 +70,7 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     Rules(rules::RulesArgs),
     Validate(validate::ValidateArgs),
+    Report(report::ReportArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -122,6 +125,7 @@ pub fn run() -> ExitCode {
         Command::Scenes(args) => scenes::run(&args, &mut out),
         Command::Rules(args) => rules::run(&args, &mut out),
         Command::Validate(args) => validate::run(&args, &mut out),
+        Command::Report(args) => report::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

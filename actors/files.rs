@@ -178,6 +178,14 @@ pub fn recordings_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("recordings"))
 }
 
+/// What the processor of this machine calls itself, for reports of run time.
+pub fn processor_name() -> String {
+    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find(|line| line.starts_with("model name"));
+    let name = line.and_then(|line| line.split_once(':')).map(|(_, name)| name.trim().to_string());
+    name.unwrap_or_else(|| format!("an unnamed {} processor", std::env::consts::ARCH))
+}
+
 /// A file name for a recording that begins now; names sort by age.
 pub fn new_recording_name() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();

@@ -55,6 +55,8 @@ pub mod lockstep;
 
 pub mod replay;
 
+pub mod report;
+
 /// The examples of the README, compiled and run as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

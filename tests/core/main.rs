@@ -23,6 +23,8 @@ mod physics_laws;
 mod rack;
 /// What a picture shows.
 mod renderer;
+/// The report: closed forms, orders, who is best, what breaks.
+mod report;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.

@@ -52,8 +52,10 @@ fn refused(arguments: &[&str], expected: &str) {
 
 #[test]
 fn every_command_teaches_with_an_example() {
-    let commands =
-        ["play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate"];
+    let commands = [
+        "play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate",
+        "report",
+    ];
     for command in commands {
         let output = program(&[command, "--help"]);
         assert!(output.status.success(), "{command}");

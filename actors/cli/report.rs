@@ -1,0 +1,113 @@
+//! `hapticbillard report`: how far each method is from the truth, at what cost, where it breaks.
+
+mod csv;
+
+mod figure;
+
+mod left_out;
+
+mod measure;
+
+mod page;
+
+mod stability;
+
+use super::{Status, json_line, progress};
+use clap::Args;
+use hapticbillard::report::{CATALOGUE, all_methods};
+use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::write_whole;
+use measure::Measured;
+use serde_json::json;
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "\
+Writes errors.csv, a figure (SVG) for each scene and REPORT.md into the folder. Times are processor
+times of this machine; everything else is the same on every machine.
+
+Examples:
+  hapticbillard report --quick
+  hapticbillard report --out report --json";
+
+/// Measures error against run time of every method, and where each of them breaks.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct ReportArgs {
+    /// The folder to write to.
+    #[arg(long, value_name = "DIR", default_value = "report")]
+    pub out: PathBuf,
+
+    /// Leaves out the smallest steps of dear scenes, and most starts: about a minute.
+    #[arg(long)]
+    pub quick: bool,
+
+    /// Measures only these scenes.
+    #[arg(long, value_name = "ID", num_args = 1..)]
+    pub only: Vec<String>,
+
+    /// Prints JSON lines.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measures and writes.
+pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    let scenes = choose(&args.only)?;
+    let bar = progress(scenes.len() as u64 * all_methods().len() as u64, "rows");
+    let measured: Vec<Measured> = scenes
+        .iter()
+        .map(|scene| measure::scene(*scene, args.quick, &bar))
+        .collect::<Result<_, Error>>()?;
+    bar.finish_and_clear();
+
+    let bar = progress(stability::length(), "cells");
+    let table = stability::measure(args.quick, &bar)?;
+    bar.finish_and_clear();
+    let idle = left_out::measure()?;
+
+    let write = |name: &str, text: &str| write_whole(&args.out.join(name), text.as_bytes());
+    write("errors.csv", &csv::errors(&measured))?;
+    write("stability.csv", &csv::stability(&table))?;
+    for scene in &measured {
+        write(&figure::name(scene), &figure::scene(scene)?)?;
+    }
+    write(figure::CHAOS, &figure::growth(&table.growth)?)?;
+    write("REPORT.md", &page::page(&measured, &table, &idle, args.quick))?;
+    print(args, &measured, out)
+}
+
+fn choose(only: &[String]) -> Result<Vec<hapticbillard::report::Scene>, Error> {
+    for id in only {
+        if !CATALOGUE.iter().any(|scene| scene.id == id) {
+            let known: Vec<&str> = CATALOGUE.iter().map(|scene| scene.id).collect();
+            let problem = format!("there is no scene '{}'", id.escape_default());
+            return Err(Error::input("--only", problem, format!("write {}", known.join(", "))));
+        }
+    }
+    let wanted = |id: &str| only.is_empty() || only.iter().any(|other| other == id);
+    Ok(CATALOGUE.into_iter().filter(|scene| wanted(scene.id)).collect())
+}
+
+fn print(args: &ReportArgs, measured: &[Measured], out: &mut dyn Write) -> Result<Status, Error> {
+    let rows = || measured.iter().flat_map(|scene| scene.rows.iter());
+    let failed = rows().filter(|timed| csv::status(&timed.row.status).0 == "failed").count();
+    let left_out = rows().filter(|timed| csv::status(&timed.row.status).0 == "left out").count();
+    let summary = json!({
+        "rows": rows().count(), "failed": failed, "left_out": left_out, "folder": args.out,
+    });
+    if args.json {
+        for timed in rows() {
+            json_line(out, &csv::json(timed))?;
+        }
+        json_line(out, &json!({ "summary": summary }))?;
+        return Ok(Status::Success);
+    }
+    let (count, folder) = (rows().count(), args.out.display());
+    writeln!(
+        out,
+        "{count} rows, {failed} of them of runs that failed, {left_out} left out; \
+         read {folder}/REPORT.md"
+    )?;
+    Ok(Status::Success)
+}

@@ -1,0 +1,28 @@
+//! Report: how far each method is from the truth, what it computed for that, and where it breaks.
+//!
+//! A [`Scene`] of the [`CATALOGUE`] is run by a [`Method`] for some starts that differ a little.
+//! The truth is a closed form where there is one, and else the exact solver, whose own error is
+//! then estimated. Nothing here reads a clock: whoever calls may time [`Prepared::watch`].
+
+mod answers;
+mod catalogue;
+mod chaos;
+mod hop;
+mod idle;
+mod method;
+mod order;
+mod stability;
+mod starts;
+mod trial;
+
+pub use catalogue::{CATALOGUE, Norm, Scene, Until};
+pub use chaos::{Growth, Spread, growth, spread};
+pub use hop::{Form, Hop, hop};
+pub use idle::{Idle, idle};
+pub use method::{METHODS, Method, STEPS_MS};
+pub use order::{all_methods, fitted_order, on_the_front, orders};
+pub use stability::{
+    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
+    pieces_limit, rest_rows, spring_cell, spring_limit,
+};
+pub use trial::{Failure, Prepared, Row, Status, Track, judge, left_out};
