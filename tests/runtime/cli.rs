@@ -273,3 +273,37 @@ fn render_in_a_build_without_pictures_says_so() {
          build it with the feature `renderer`, which is there by default",
     );
 }
+
+#[test]
+fn report_writes_tables_figures_and_a_page_that_name_the_same_runs() {
+    let folder = folder("report");
+    let out = folder.to_str().unwrap();
+    let output =
+        program(&["report", "--quick", "--only", "bounce", "spring_stiff", "--out", out, "--json"]);
+    assert!(output.status.success(), "{output:?}");
+    let printed = lines(&output.stdout);
+    let summary = &printed[printed.len() - 1]["summary"];
+    let count = |status: &str| printed.iter().filter(|line| line["status"] == status).count();
+    assert_eq!(summary["rows"], printed.len() - 1);
+    assert_eq!([&summary["failed"], &summary["left_out"]], [count("failed"), count("left out")]);
+    assert!(count("failed") > 0 && count("left out") > 0 && count("ok") > 0);
+    for line in &printed[..printed.len() - 1] {
+        assert!(line["status"] != "ok" || line["error_m"].as_f64().unwrap() < 1.0, "{line}");
+        assert!(line["status"] == "ok" || !line["remark"].as_str().unwrap().is_empty(), "{line}");
+    }
+
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(read("errors.csv").lines().count(), printed.len());
+    let page = read("REPORT.md");
+    for figure in ["bounce.svg", "spring_stiff.svg", "chaos.svg"] {
+        assert!(page.contains(&format!("]({figure})")), "{figure}");
+        assert!(read(figure).starts_with("<svg "), "{figure}");
+    }
+    assert!(!page.contains("NaN"), "{page}");
+    refused(
+        &["report", "--only", "banana"],
+        "--only: there is no scene 'banana'; write sliding, draw, masse, cut, cut_cushion, \
+         rail_first, jump, bounce, pocket, spring_soft, spring, spring_stiff, cradle, break, \
+         thousand",
+    );
+}
