@@ -84,8 +84,8 @@ fn panel(
         .configure_mesh()
         .x_desc(what)
         .y_desc("error [m]")
-        .x_label_formatter(&|x| format!("{x:e}"))
-        .y_label_formatter(&|y| format!("{y:e}"))
+        .x_label_formatter(&|x| format!("{x:.0e}"))
+        .y_label_formatter(&|y| format!("{y:.0e}"))
         .light_line_style(WHITE)
         .draw()
         .map_err(failed)?;
@@ -144,7 +144,7 @@ pub fn growth(curves: &[Growth]) -> Result<String, Error> {
             .configure_mesh()
             .x_desc("time [s]")
             .y_desc("ball that is off most [m]")
-            .y_label_formatter(&|y| format!("{y:e}"))
+            .y_label_formatter(&|y| format!("{y:.0e}"))
             .light_line_style(WHITE)
             .draw()
             .map_err(failed)?;
