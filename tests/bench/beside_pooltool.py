@@ -1,6 +1,6 @@
 """The exact solver beside pooltool: the same shots, in turn, in one run.
 
-    python tests/bench/pooltool.py target/release/hapticbillard [SHOTS [ROUNDS]]
+    python tests/bench/beside_pooltool.py target/release/hapticbillard [SHOTS [ROUNDS]]
 
 Needs pooltool 0.6. The program draws the shots (`simulate --bench --json`: breaks of fifteen balls
 at 8 to 10 m/s, and two or three balls at 0.5 to 5 m/s, until rest on its full mesh, flight
