@@ -46,7 +46,7 @@ def system(balls):
     made = {}
     for ball in balls:
         x, y, z = turned(ball["position_m"])
-        name = "cue" if ball["id"] == 0 else str(ball["id"])
+        name = "cue" if str(ball["id"]) == "0" else str(ball["id"])
         one = pooltool.Ball.create(name, xy=(x + WIDTH_M / 2, y + LENGTH_M / 2))
         if any(ball["velocity_m_s"]):
             one.state.rvw[1] = turned(ball["velocity_m_s"])
