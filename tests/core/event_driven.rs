@@ -1,6 +1,7 @@
 //! The exact solver: what must hold whatever happens, at the extremes, mirrored and renumbered.
 
 mod extremes;
+mod left_out;
 mod random;
 mod springs;
 mod symmetry;
