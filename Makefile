@@ -13,7 +13,7 @@ play: setup
 
 # A whole game with real mouse and key events, in real time on a virtual display.
 window: setup
-	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game \
+	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game:: \
 	  -- --nocapture
 
 # Fails early: what is cheap and what breaks most often comes first.

@@ -3,48 +3,13 @@
 //! A shot is the same to the last bit whoever computes it beside which others: each runs on a
 //! clone of its own, and only the table is shared.
 
-use hapticbillard::ball::{Ball, BallState};
-use hapticbillard::physics::{PhysicsError, Shot, Simulation, Strike};
+use hapticbillard::physics::{PhysicsError, Setup, Shot, Simulation};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 
 /// Shots of each thread that are done before their results are handed over; it bounds the memory
 /// that waiting results take.
 const AHEAD: usize = 16;
-
-/// One shot of a batch.
-#[derive(Debug, Clone, Default)]
-pub struct Setup {
-    /// Balls in place of those of the start; their states may be in motion.
-    pub balls: Option<Vec<(Ball, BallState)>>,
-    /// A stroke at the cue ball; without one the balls go on as they are.
-    pub strike: Option<Strike>,
-}
-
-impl Setup {
-    /// This shot at its start.
-    ///
-    /// # Errors
-    /// What is wrong with its balls or its stroke.
-    pub fn begin(&self, start: &Simulation) -> Result<Simulation, PhysicsError> {
-        let simulation = match &self.balls {
-            Some(balls) => start.with_balls(balls.clone())?,
-            None => start.clone(),
-        };
-        match self.strike {
-            Some(strike) => simulation.strike(strike),
-            None => Ok(simulation),
-        }
-    }
-
-    /// Runs this shot alone.
-    ///
-    /// # Errors
-    /// What is wrong with its balls or its stroke, or that it never comes to rest.
-    pub fn run(&self, start: &Simulation) -> Result<Shot, PhysicsError> {
-        self.begin(start)?.run_until_rest()
-    }
-}
 
 /// Runs all shots, by default on all cores, and hands their results over in the order of the
 /// shots; `done` is called once for each shot when it is computed, in any order and by any thread.

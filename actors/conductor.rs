@@ -8,7 +8,8 @@
 use crate::event_manager::{DeliveryError, EventManager, Seal};
 use crate::input::{Entered, FrameOf};
 use crate::physics::{Advance, Coast, Moved, Physics};
-use crate::recorder::{Record, Recorder};
+use crate::recorder::{Keeper, Lost};
+use hapticbillard::events::Health;
 use hapticbillard::hash::Digest;
 use hapticbillard::lockstep::LockstepError;
 use hapticbillard::physics::{PhysicsError, Snapshot};
@@ -40,7 +41,7 @@ pub enum RunError {
         /// Why.
         reason: String,
     },
-    /// The recording cannot be written.
+    /// The recording cannot be written, or not to its end.
     #[error("the recording cannot be written: {0}")]
     Recording(String),
     /// The runtime itself cannot start.
@@ -66,8 +67,8 @@ pub struct Below {
     pub events: ActorRef<EventManager>,
     /// Whoever acts from outside, or stands in for them.
     pub input: Option<ReplyRecipient<FrameOf, Entered>>,
-    /// Writes the recording.
-    pub recorder: Option<ActorRef<Recorder>>,
+    /// Hands the recording over to whoever writes it.
+    pub recording: Option<Keeper>,
     /// What to check the run against.
     pub verify: Option<Arc<Recording>>,
 }
@@ -82,6 +83,10 @@ pub struct Conductor {
     primed: bool,
     /// What entered while time stood still: it is due in the first tick after that.
     held: Frame,
+    /// What the runtime has to tell about itself, with the next mail.
+    health: Vec<Health>,
+    /// Whoever acts would rather not wait.
+    hurried: bool,
     last: Last,
     verified: u64,
 }
@@ -103,6 +108,8 @@ impl Conductor {
             next_frame: None,
             primed: false,
             held: Frame::new(),
+            health: Vec::new(),
+            hurried: false,
             last,
             verified: 0,
         }
@@ -117,6 +124,8 @@ pub struct Step;
 pub enum Progress {
     /// It goes on.
     Running,
+    /// It goes on, and whoever acts would rather not wait.
+    Hurried,
     /// Time stands still.
     Paused,
     /// It is over.
@@ -149,6 +158,24 @@ impl Message<Quit> for Conductor {
     }
 }
 
+/// End the recording: wait until its actor has stopped.
+pub struct EndRecording;
+
+/// What is missing in it, if anything.
+#[derive(Debug, Reply)]
+pub struct Recorded(pub Option<Lost>);
+
+impl Message<EndRecording> for Conductor {
+    type Reply = Recorded;
+
+    async fn handle(&mut self, _: EndRecording, _: &mut Context<Self, Recorded>) -> Recorded {
+        match self.below.recording.take() {
+            Some(recording) => Recorded(recording.end().await),
+            None => Recorded(None),
+        }
+    }
+}
+
 impl Conductor {
     /// One tick, from frame to answers; or a coast that met nothing.
     async fn step(&mut self) -> Result<Progress, RunError> {
@@ -176,7 +203,7 @@ impl Conductor {
                 inflow.frame.insert_many(0, self.held.drain(..));
                 if !inflow.frame.is_empty() {
                     // On disk before it is used.
-                    self.record(Line::Frame { tick, publish: inflow.frame.clone() }).await?;
+                    self.record(Line::Frame { tick, publish: inflow.frame.clone() }).await;
                 }
                 let Next::Advance { tick, commands } = self.clock.framed(tick, inflow.frame) else {
                     return Ok(Progress::Running);
@@ -202,7 +229,7 @@ impl Conductor {
             Next::Finished(end) => return self.finish(end).await,
             Next::Advance { .. } | Next::Seal { .. } => {}
         }
-        Ok(Progress::Running)
+        Ok(if self.hurried { Progress::Hurried } else { Progress::Running })
     }
 
     async fn inflow(&mut self, tick: Tick) -> Result<Inflow, RunError> {
@@ -211,6 +238,7 @@ impl Conductor {
         };
         let inflow = input.ask(FrameOf(tick)).send().await.map_err(|e| self.gone("input", e))?.0;
         self.next_frame = inflow.next;
+        self.hurried = inflow.hurried;
         Ok(inflow)
     }
 
@@ -229,7 +257,9 @@ impl Conductor {
             return Ok(());
         };
         let table = self.last.table.clone();
-        let answer = self.below.events.ask(Seal { tick, frame, facts, table }).await;
+        let health = std::mem::take(&mut self.health);
+        let seal = Seal { tick, frame, facts, health, table };
+        let answer = self.below.events.ask(seal).await;
         let delivery = answer.map_err(|e| self.gone("event manager", e))?.0?;
         let hash = TickHash::new(tick, self.last.physics, delivery.digests, &self.last.table);
         if let Some(recorded) = self.below.verify.as_ref().and_then(|r| r.hashes.get(&tick)) {
@@ -239,19 +269,18 @@ impl Conductor {
             self.verified += 1;
         }
         if delivery.fact {
-            self.record(Line::Hash(hash.clone())).await?;
+            self.record(Line::Hash(hash.clone())).await;
         }
         self.last.hash = Some(hash);
         self.clock.sealed(delivery.sealed);
         Ok(())
     }
 
-    async fn record(&mut self, line: Line) -> Result<(), RunError> {
-        if let Some(recorder) = &self.below.recorder {
-            let written = recorder.ask(Record(line)).await.map_err(|e| self.gone("recorder", e))?;
-            written.0.map_err(|error| RunError::Recording(error.to_string()))?;
+    /// Waits until the line is on disk. A game goes on without its recording.
+    async fn record(&mut self, line: Line) {
+        if let Some(recording) = &mut self.below.recording {
+            self.health.extend(recording.record(line).await);
         }
-        Ok(())
     }
 
     async fn finish(&mut self, end: End) -> Result<Progress, RunError> {
@@ -259,7 +288,7 @@ impl Conductor {
         if let Some(recording) = &self.below.verify {
             recording.check_end(tick, end, self.verified)?;
         }
-        self.record(Line::End { tick, reason: end }).await?;
+        self.record(Line::End { tick, reason: end }).await;
         let hash = self.last.hash.clone();
         Ok(Progress::Finished(Finished { end, tick, hash, verified: self.verified }))
     }

@@ -4,10 +4,12 @@
 //! within the tick (all are asked at once, the answers taken in order of registration). Sinks get
 //! theirs by `try_send` on a bounded channel: a sink that lags loses its own mail, which is
 //! counted in [`Sink::dropped`], and delays nobody.
+//!
+//! `tests/bench/bus/README.md` holds what this costs beside other ways to send the same events.
 
 use crate::participant::{Ask, Mail, Seat};
 use hapticbillard::event_manager::{EventManager as Core, QueueFull};
-use hapticbillard::events::{Event, Fact, Source, Topics};
+use hapticbillard::events::{Event, Fact, Health, Source, Topics};
 use hapticbillard::hash::Digest;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Frame, Sealed};
@@ -77,6 +79,8 @@ pub struct Seal {
     pub frame: Frame,
     /// What physics saw.
     pub facts: Vec<Fact>,
+    /// What the runtime says about itself. No core hears it and no hash contains it.
+    pub health: Vec<Health>,
     /// The visible world at the tick's end.
     pub table: Arc<Snapshot>,
 }
@@ -124,11 +128,13 @@ impl Message<Seal> for EventManager {
 
 impl EventManager {
     async fn deliver(&mut self, seal: Seal) -> Result<Delivery, DeliveryError> {
-        let Seal { tick, frame, facts, table } = seal;
+        let Seal { tick, frame, facts, health, table } = seal;
         for publication in frame {
             self.core.publish(Source::Input, tick, publication)?;
         }
         self.core.publish_now(Source::Physics, tick, facts.into_iter().map(Event::Fact))?;
+        let health = health.into_iter().map(|health| Event::Health(Arc::new(health)));
+        self.core.publish_now(Source::Runtime, tick, health)?;
 
         let mut fact = false;
         let mut asked: SmallVec<[_; 8]> = SmallVec::new();
@@ -137,8 +143,7 @@ impl EventManager {
             let mail = Delivered { tick, events: delivery.events, table: table.clone() };
             match &self.subscribers[delivery.to.0] {
                 Subscriber::Seat(who, ask) => {
-                    let answer = ask(Mail(mail)).map_err(|error| gone(*who, tick, error))?;
-                    asked.push((delivery.to, *who, answer));
+                    asked.push((delivery.to, *who, ask(Mail(mail))));
                 }
                 Subscriber::Sink(sink) => {
                     if let Err(flume::TrySendError::Full(_)) = sink.mail.try_send(mail) {
@@ -150,8 +155,8 @@ impl EventManager {
         // All were asked; who was asked last answers among the last, so that waiting for it first
         // wakes this actor about once a tick and not once an answer.
         let mut answers: SmallVec<[_; 8]> = SmallVec::new();
-        for (id, who, answer) in asked.into_iter().rev() {
-            answers.push((id, answer.await.map_err(|error| gone(who, tick, error))?));
+        for (id, who, asked) in asked.into_iter().rev() {
+            answers.push((id, asked.answer().await.map_err(|error| gone(who, tick, error))?));
         }
         // They are taken in order of registration, whoever was first.
         for (id, answer) in answers.into_iter().rev() {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
 use hapticbillard::shipped;
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -32,7 +32,13 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
 
 /// Opens a file that is read line by line, however long it is.
 pub fn open_lines(path: &Path) -> Result<File, Error> {
-    File::open(path).map_err(|reason| Error::Read { path: path.to_path_buf(), reason })
+    let failed = |reason| Error::Read { path: path.to_path_buf(), reason };
+    let file = File::open(path).map_err(failed)?;
+    // A pipe may be read, a folder cannot be.
+    if file.metadata().map_err(failed)?.is_dir() {
+        return Err(Error::NoFile { path: path.to_path_buf() });
+    }
+    Ok(file)
 }
 
 /// Writes a file whole: first under another name, then renamed.
@@ -74,20 +80,38 @@ impl LineWriter {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             fs::create_dir_all(folder).map_err(failed)?;
         }
-        let mut draft = path.clone().into_os_string();
-        draft.push(".part");
-        let draft = PathBuf::from(draft);
+        let draft = Self::draft_of(&path);
         let file = File::create(&draft).map_err(failed)?;
         Ok(LineWriter { file, draft, path })
     }
 
-    /// Appends a line; the operating system has it when this returns.
-    pub fn line(&mut self, text: &str) -> Result<(), Error> {
+    /// Goes on behind the first `length` bytes of a file that was begun and not finished; what
+    /// stands behind them is half a line, and is cut off.
+    pub fn resume(path: PathBuf, length: u64) -> Result<Self, Error> {
+        let draft = Self::draft_of(&path);
+        let failed = |reason| Error::Write { path: draft.clone(), reason };
+        let mut file = File::options().write(true).open(&draft).map_err(failed)?;
+        if file.metadata().map_err(failed)?.len() < length {
+            return Err(failed(std::io::Error::other("what was written is no longer there")));
+        }
+        file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0))).map_err(failed)?;
+        Ok(LineWriter { file, draft, path })
+    }
+
+    fn draft_of(path: &Path) -> PathBuf {
+        let mut draft = path.to_path_buf().into_os_string();
+        draft.push(".part");
+        PathBuf::from(draft)
+    }
+
+    /// Appends a line; the operating system has it when this returns. Returns its length [bytes].
+    pub fn line(&mut self, text: &str) -> Result<u64, Error> {
         let failed = |reason| Error::Write { path: self.draft.clone(), reason };
         let mut bytes = Vec::with_capacity(text.len() + 1);
         bytes.extend_from_slice(text.as_bytes());
         bytes.push(b'\n');
-        self.file.write_all(&bytes).map_err(failed)
+        self.file.write_all(&bytes).map_err(failed)?;
+        Ok(bytes.len() as u64)
     }
 
     /// Gives the file its name.
@@ -131,7 +155,8 @@ impl LoadedScene {
     /// in the scene's own folder or below.
     pub fn read_mesh(&self, file: &str) -> Result<String, String> {
         let Some(folder) = &self.folder else {
-            return Err(String::from("a shipped scene has no mesh files"));
+            let shipped = shipped::mesh(file).map(String::from);
+            return shipped.ok_or_else(|| String::from("no shipped mesh has this name"));
         };
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
         if !Path::new(file).components().all(inside) {

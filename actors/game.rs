@@ -98,7 +98,8 @@ impl Stage {
     /// What does not fit together.
     pub fn simulation(&self) -> Result<Simulation, Error> {
         let balls = self.scene.build_balls(&self.table)?;
-        Ok(Simulation::from_parts(&self.table, balls, &self.scene.physics)?)
+        let (physics, parameters) = (&self.scene.physics, self.scene.parameters());
+        Ok(Simulation::with_parameters(&self.table, balls, physics, parameters)?)
     }
 
     /// The cores of this game.

@@ -25,6 +25,9 @@ pub enum Tempo {
 
 /// How far a paced game may lag before it gives the lost time up.
 const LAG_MAX: Duration = Duration::from_millis(50);
+/// How much faster time runs for somebody who would rather not wait. Fast enough to skip a long
+/// roll, slow enough to see who pockets what.
+const HURRY: f64 = 8.0;
 /// How long it waits at most [s].
 const WAIT_MAX_S: f64 = 86_400.0;
 /// How long the pacer sleeps at least.
@@ -56,6 +59,7 @@ pub async fn run(
     stop: &StopFlag,
 ) -> Result<Finished, RunError> {
     let mut start = (Instant::now(), Tick(0));
+    let mut was_hurried = false;
     loop {
         let stepped = if stop.is_set() {
             conductor.ask(Quit).await.map_err(gone)?
@@ -69,10 +73,14 @@ pub async fn run(
                 tokio::time::sleep(Duration::from_millis(10)).await;
                 start = (Instant::now(), tick);
             }
-            Progress::Running => {
-                if let Tempo::RealTime(rate) = tempo {
-                    start = pace(start, tick, rate).await;
+            Progress::Running | Progress::Hurried => {
+                let Tempo::RealTime(rate) = tempo else { continue };
+                let hurried = progress == Progress::Hurried;
+                if hurried != was_hurried {
+                    was_hurried = hurried;
+                    start = (Instant::now(), tick);
                 }
+                start = pace(start, tick, if hurried { rate * HURRY } else { rate }).await;
             }
         }
     }

@@ -24,11 +24,34 @@ pub struct Answer {
     pub digest: Digest,
 }
 
-/// Puts mail into a participant's mailbox at once and returns the answer to come. When the mailbox
-/// is full it refuses: a participant is asked once a tick and answers before the next, so this
-/// means that somebody else writes to it.
-pub type Ask =
-    Box<dyn Fn(Mail) -> Result<PendingReply<Mail, Answer>, SendError> + Send + Sync + 'static>;
+/// Puts mail into a participant's mailbox at once and returns the answer to come.
+pub type Ask = Box<dyn Fn(Mail) -> Asked + Send + Sync + 'static>;
+
+/// What came of the mail.
+pub type Answered = Result<Answer, SendError<Mail>>;
+
+/// Somebody was asked.
+pub enum Asked {
+    /// The mail is in the mailbox.
+    Pending(PendingReply<Mail, Answer>),
+    /// The participant is gone, or its mailbox is full.
+    Refused(Box<SendError<Mail>>),
+}
+
+impl Asked {
+    /// Waits for the answer.
+    ///
+    /// # Errors
+    /// What became of the mail: the participant is gone, it died over it, or its mailbox is full.
+    /// It is asked once a tick and answers before the next, so a full mailbox means that somebody
+    /// else writes to it.
+    pub async fn answer(self) -> Answered {
+        match self {
+            Asked::Pending(answer) => answer.await,
+            Asked::Refused(error) => Err(*error),
+        }
+    }
+}
 
 /// A participant as the event manager knows it.
 pub struct Seat {
@@ -44,7 +67,20 @@ pub struct Seat {
 
 /// The door to an actor that answers [`Mail`].
 pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
-    Box::new(move |mail| actor.ask(mail).try_enqueue())
+    Box::new(move |mail| {
+        // Kameo's `try_enqueue` panics where mail is refused, so it is looked at before. Between
+        // two ticks a participant has nothing to do that it could die of.
+        if !actor.is_alive() {
+            return Asked::Refused(Box::new(SendError::ActorNotRunning(mail)));
+        }
+        if actor.mailbox_sender().capacity() == Some(0) {
+            return Asked::Refused(Box::new(SendError::MailboxFull(mail)));
+        }
+        match actor.ask(mail).try_enqueue() {
+            Ok(answer) => Asked::Pending(answer),
+            Err(_) => Asked::Refused(Box::new(SendError::ActorStopped)),
+        }
+    })
 }
 
 /// Hands `mail` to a core.

@@ -1,55 +1,75 @@
 //! The actor that writes a recording, line by line, on a thread of its own.
 //!
 //! A frame is on disk before the game uses it. The file is named `….part` until the game has
-//! ended, and can be replayed as far as it goes even then.
+//! ended, and can be replayed as far as it goes even then. When this actor dies, or the disk
+//! refuses, [`Keeper`] starts another one that goes on in the same file.
+
+mod keeper;
+
+pub use keeper::{Keeper, Lost, Open};
 
 use crate::error::Error;
 use crate::files::LineWriter;
-use hapticbillard::replay::{Header, Line};
+use hapticbillard::replay::Line;
+use kameo::mailbox;
 use kameo::prelude::*;
-use std::path::PathBuf;
+use std::path::Path;
+
+/// Lines that may wait for the disk; the conductor waits when it is full.
+const MAILBOX: usize = 64;
 
 /// Owns the file.
 #[derive(Actor)]
 pub struct Recorder {
     file: Option<LineWriter>,
+    /// Bytes in the file.
+    length: u64,
 }
 
 impl Recorder {
-    /// Creates the file and writes its header.
+    /// Begins a file, or goes on behind the first `length` bytes of one that was begun.
     ///
     /// # Errors
-    /// [`Error`] if it cannot be created or written.
-    pub fn create(path: PathBuf, header: Header) -> Result<Self, Error> {
-        let mut file = LineWriter::create(path)?;
-        file.line(&Line::Recording(header).to_json())?;
-        Ok(Recorder { file: Some(file) })
+    /// [`Error`] if it cannot be written, or holds less than that.
+    pub fn open(path: &Path, length: u64) -> Result<Self, Error> {
+        let file = match length {
+            0 => LineWriter::create(path.to_path_buf())?,
+            _ => LineWriter::resume(path.to_path_buf(), length)?,
+        };
+        Ok(Recorder { file: Some(file), length })
+    }
+
+    /// The same as an actor.
+    ///
+    /// # Errors
+    /// As for [`Recorder::open`].
+    pub fn start(path: &Path, length: u64) -> Result<ReplyRecipient<Record, Written>, Error> {
+        let recorder = Self::open(path, length)?;
+        let mailbox = mailbox::bounded(MAILBOX);
+        Ok(Self::spawn_in_thread_with_mailbox(recorder, mailbox).reply_recipient())
     }
 
     /// Writes a line; the last one closes the file.
-    ///
-    /// # Errors
-    /// [`Error`] if the disk refuses.
-    pub fn write(&mut self, line: &Line) -> Result<(), Error> {
+    fn write(&mut self, line: &Line) -> Result<u64, Error> {
         let Some(file) = &mut self.file else {
-            return Ok(());
+            return Ok(self.length);
         };
-        file.line(&line.to_json())?;
+        self.length += file.line(&line.to_json())?;
         if matches!(line, Line::End { .. })
             && let Some(file) = self.file.take()
         {
             file.finish()?;
         }
-        Ok(())
+        Ok(self.length)
     }
 }
 
-/// Write this line.
+/// Write this line. The answer says how many bytes are in the file now.
 pub struct Record(pub Line);
 
 /// Whether it is on disk.
 #[derive(Debug, Reply)]
-pub struct Written(pub Result<(), Error>);
+pub struct Written(pub Result<u64, Error>);
 
 impl Message<Record> for Recorder {
     type Reply = Written;

@@ -5,18 +5,18 @@
 //! recorder have one each where they are asked for.
 
 use crate::ai::Ai;
-use crate::conductor::{Below, Conductor, RunError};
+use crate::conductor::{Below, Conductor, EndRecording, RunError};
 use crate::event_manager::{EventManager, Sink};
 use crate::input::{Hand, Input, StandIn};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
 use crate::participant::{self, Answer, Mail, Seat, door};
 use crate::physics::Physics;
-use crate::recorder::Recorder;
+use crate::recorder::{Keeper, Open, Recorder};
 use crate::rules::Rules;
 use hapticbillard::cast::Cast;
 use hapticbillard::physics::Snapshot;
-use hapticbillard::replay::{Header, Recording};
+use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
 use hapticbillard::units::Tick;
 use kameo::mailbox;
@@ -27,8 +27,6 @@ use std::sync::Arc;
 /// How many messages an actor of the tick can have waiting: it is asked once a tick and answers
 /// before the next, so two are one more than ever wait. When it is full the asker waits.
 const MAILBOX: usize = 2;
-/// Lines that may wait for the disk; the conductor waits when it is full.
-const RECORDER_MAILBOX: usize = 64;
 
 /// How a cast is run.
 pub struct Setup {
@@ -40,8 +38,11 @@ pub struct Setup {
     pub limit: Tick,
     /// Who acts from outside.
     pub input: InputPort,
-    /// Where the recording goes.
+    /// Where the recording goes. A game goes on without it; whoever plays is told at once, and a
+    /// run without a person ends in an error.
     pub record: Option<(PathBuf, Header)>,
+    /// Who writes it.
+    pub recorder: Open,
     /// What the run is checked against.
     pub verify: Option<Arc<Recording>>,
     /// Who only watches.
@@ -77,6 +78,7 @@ impl Setup {
             limit,
             input: InputPort::None,
             record: None,
+            recorder: Box::new(Recorder::start),
             verify: None,
             observers: Vec::new(),
             sinks: Vec::new(),
@@ -135,13 +137,11 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         physics.spawn(body);
     }
 
-    let recorder = match setup.record {
+    let recording = match setup.record {
         None => None,
         Some((path, header)) => {
-            let core = Recorder::create(path, header)
-                .map_err(|error| RunError::Recording(error.to_string()))?;
-            let mailbox = mailbox::bounded(RECORDER_MAILBOX);
-            Some(Recorder::spawn_in_thread_with_mailbox(core, mailbox))
+            let begun = Keeper::begin(path, Line::Recording(header), setup.recorder).await;
+            Some(begun.map_err(|error| RunError::Recording(error.to_string()))?)
         }
     };
 
@@ -153,22 +153,30 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         physics: physics_ref.clone(),
         events: events.clone(),
         input,
-        recorder: recorder.clone(),
+        recording,
         verify: setup.verify,
     };
     let conductor = spawn(Conductor::new(clock, below));
 
     let finished = pacer::run(&conductor, setup.tempo, &setup.stop).await;
+    // A conductor that is gone took its recording with it; what is on disk stays there.
+    let lost = conductor.ask(EndRecording).await.ok().and_then(|recorded| recorded.0);
 
     // From above to below, so that nobody asks somebody who is gone. The participants stop with
     // the event manager, who holds the last reference to them.
     stop(conductor).await;
     stop(physics_ref).await;
     stop(events).await;
-    if let Some(recorder) = recorder {
-        stop(recorder).await;
+    match (finished, lost) {
+        (Ok(_), Some(lost)) if setup.tempo == Tempo::Free => {
+            Err(RunError::Recording(lost.to_string()))
+        }
+        (finished, Some(lost)) => {
+            log::warn!("{lost}");
+            finished
+        }
+        (finished, None) => finished,
     }
-    finished
 }
 
 fn spawn<A: Actor<Args = A>>(actor: A) -> ActorRef<A> {

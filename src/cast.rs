@@ -65,7 +65,9 @@ impl Cast {
         let balls = scene.build_balls(&table)?;
         let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
         let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
-        let simulation = Simulation::from_parts(&table, balls, &scene.physics)?;
+        let parameters = scene.parameters();
+        let tip_radius_m = parameters.tip_radius_m;
+        let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?;
         let referee = scene
             .rules
             .as_ref()
@@ -88,8 +90,11 @@ impl Cast {
             players.push(Player::new(id, settings, bed, pockets, radius_m, clearance));
         }
         let stands_in = scene.actors.as_ref().is_some_and(|actors| actors.input.is_some());
-        let human = (scene.input.is_some() && !stands_in)
-            .then(|| Human::new(scene.human_players(), table.clone()).with_ball_radius(radius_m));
+        let human = (scene.input.is_some() && !stands_in).then(|| {
+            Human::new(scene.human_players(), table.clone())
+                .with_ball_radius(radius_m)
+                .with_tip_radius(tip_radius_m)
+        });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })
     }

@@ -19,6 +19,8 @@ pub mod mesh;
 
 pub mod cue;
 
+mod one_line;
+
 pub mod events;
 
 pub mod table;

@@ -29,6 +29,21 @@ pub enum Surface {
     Obstacle,
 }
 
+impl Surface {
+    /// Which of the surfaces around an edge or corner a ball meets there: that of highest rank.
+    pub(crate) fn rank(self) -> u8 {
+        match self {
+            Surface::Cushion(_) => 6,
+            Surface::Pocket(_) => 5,
+            Surface::Wood => 4,
+            Surface::Obstacle => 3,
+            Surface::Cloth => 2,
+            Surface::PocketBottom(_) => 1,
+            Surface::Floor => 0,
+        }
+    }
+}
+
 /// A triangle: three corners by number, anticlockwise seen from outside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Face {

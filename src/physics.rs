@@ -31,6 +31,8 @@ pub mod event_driven;
 
 pub mod sample_shots;
 
+mod setup;
+
 mod shot;
 mod simulation;
 
@@ -42,7 +44,8 @@ pub use ledger::{Ledger, Momentum};
 pub use parameters::{Contact, Parameters};
 pub use profiles::Equipment;
 pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
-pub use shot::{Shot, Strike, Trajectory};
+pub use setup::Setup;
+pub use shot::{Shot, Strike, StrikeError, Trajectory};
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use solver::Solver;

@@ -11,6 +11,7 @@ use crate::event_manager::Publication;
 use crate::events::Source;
 use crate::hash::{Digest, StateHash};
 use crate::ids::BallId;
+use crate::one_line::without_place;
 use crate::physics::Snapshot;
 use crate::scene::Overrides;
 use crate::tick::{End, Frame, FrameSource, Inflow};
@@ -326,7 +327,7 @@ impl FrameSource for RecordedInput {
             Some(last) if last <= tick => Some(last.after(1)),
             _ => recording.next_after(tick),
         };
-        Inflow { frame: recording.frame(tick), next, paused: false, quit }
+        Inflow { frame: recording.frame(tick), next, quit, ..Inflow::default() }
     }
 }
 
@@ -343,10 +344,7 @@ fn parse_line(number: usize, line: &str) -> Result<Line, RecordingError> {
             _ => "restore the file, or delete this line and all after it to replay the rest",
         };
         // The message ends with its own place, which is that inside the line.
-        let text = error.to_string();
-        let problem = text.split(" at line ").next().unwrap_or(&text);
-        // What stands in the file may stand in the message, and that is one line.
-        let problem = problem.replace(char::is_control, "\u{fffd}");
+        let problem = without_place(&error);
         RecordingError::Line { line: number, column: error.column().max(1), problem, remedy }
     })
 }

@@ -21,7 +21,7 @@ pub use plan::{PlanKind, PlanLine};
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
 use crate::ids::{BallId, GameKind, PlayerId};
 use crate::mesh::Surface;
-use crate::physics::PhysicsSettings;
+use crate::physics::{Parameters, PhysicsSettings};
 use crate::table::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -194,9 +194,42 @@ impl BallSection {
     }
 }
 
-/// `[cue]`: there is a cue. It has no keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CueSection;
+/// `[cue]`: there is a cue, or something else that balls are struck with. What it does not say is
+/// as with a pool cue.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub struct CueSection {
+    /// Radius of the tip's curvature [m].
+    pub tip_radius_m: Option<f64>,
+    /// Mass along the shaft [kg].
+    pub mass_kg: Option<f64>,
+    /// Effective mass of the end across the shaft [kg].
+    pub end_mass_kg: Option<f64>,
+    /// Restitution between tip and ball.
+    pub tip_restitution: Option<f64>,
+    /// Friction between tip and ball.
+    pub tip_friction: Option<f64>,
+}
+
+impl CueSection {
+    /// A pool cue.
+    pub const POOL: CueSection = CueSection {
+        tip_radius_m: None,
+        mass_kg: None,
+        end_mass_kg: None,
+        tip_restitution: None,
+        tip_friction: None,
+    };
+
+    /// Puts what the section says into `parameters`.
+    pub fn apply(&self, parameters: &mut Parameters) {
+        let set = |value: &mut f64, given: Option<f64>| *value = given.unwrap_or(*value);
+        set(&mut parameters.tip_radius_m, self.tip_radius_m);
+        set(&mut parameters.cue_mass_kg, self.mass_kg);
+        set(&mut parameters.cue_end_mass_kg, self.end_mass_kg);
+        set(&mut parameters.tip.restitution, self.tip_restitution);
+        set(&mut parameters.tip.friction, self.tip_friction);
+    }
+}
 
 /// `[rules]`: what is played.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

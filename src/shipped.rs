@@ -13,12 +13,21 @@ pub const SCENES: &[(&str, &str)] = &[
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),
 ];
 
+/// The meshes of scenes, by file name: the text of `config/scenes/NAME`.
+pub const MESHES: &[(&str, &str)] =
+    &[("minigolf.obj", include_str!("../config/scenes/minigolf.obj"))];
+
 /// The catalogue of cases with known answers.
 pub const CASES: &str = include_str!("../config/validation/cases.json");
 
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {
     TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// The text of the mesh file `name` of a shipped scene.
+pub fn mesh(name: &str) -> Option<&'static str> {
+    MESHES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
 /// The text of the shipped scene `name`.

@@ -123,7 +123,8 @@ impl Table {
         Table { name: "plane".to_owned(), planes: vec![cloth], ..Table::default() }
     }
 
-    /// A table from a Wavefront OBJ text; every face is an obstacle.
+    /// A table from a Wavefront OBJ text; faces are obstacles unless their material says otherwise
+    /// (see [`parse_obj`]).
     pub fn from_mesh(obj_text: &str) -> Result<Table, TableError> {
         let mesh = parse_obj(obj_text, Surface::Obstacle)?;
         Ok(Table { name: "mesh".to_owned(), mesh, ..Table::default() })

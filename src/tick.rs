@@ -41,7 +41,7 @@ pub struct Delivered {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outcome {
     /// What it publishes; due in the next tick or later.
-    pub publish: SmallVec<[Publication; 2]>,
+    pub publish: Vec<Publication>,
     /// Delayed events of its own that it takes back, by their label.
     pub cancel: SmallVec<[u32; 1]>,
     /// It wants to be called at this tick at the latest, mail or not. Every answer replaces the
@@ -101,6 +101,9 @@ pub struct Inflow {
     pub next: Option<Tick>,
     /// Whether time stands still; not part of the game.
     pub paused: bool,
+    /// Whether whoever acts would rather not wait: a paced game may run faster. Not part of the
+    /// game either.
+    pub hurried: bool,
     /// Somebody quit: the game ends before this tick.
     pub quit: bool,
 }

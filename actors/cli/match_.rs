@@ -24,6 +24,9 @@ const EXAMPLE: &str = "\
 Prints a line per game and a total: who won, shots, fouls, balls pocketed, racks cleared in one
 turn. Two runs with one seed print the same bytes, unless --timing is given.
 
+A recording is named FILE.part until its game has ended; one that was cut off can be replayed as far
+as it goes.
+
 Examples:
   hapticbillard match --games 100 --seed 1
   hapticbillard match --games 10 --players paper,paper --noise 0.5 --json

@@ -18,6 +18,7 @@ use hapticbillard_actors::game::{Headless, Stage, play_headless};
 use hapticbillard_actors::pacer::{StopFlag, describe};
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 const EXAMPLE: &str = "\
 Without a display it says so and plays eight_ball_headless with a live score. Every game is
@@ -54,6 +55,7 @@ pub struct PlayArgs {
 
     /// Game time per real time; 1 is as in the world, 0.25 slow motion.
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
     pub speed: f64,
 }
 
@@ -114,13 +116,19 @@ fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
 
 /// Ends the game in order when somebody presses Ctrl-C.
 fn stop_at_interrupt() -> StopFlag {
-    let stop = StopFlag::default();
-    let flag = stop.clone();
-    // Without a handler Ctrl-C ends the program at once, and leaves a recording without its end.
-    if let Err(error) = ctrlc::set_handler(move || flag.set()) {
-        log::warn!("Ctrl-C will not end the game in order: {error}");
-    }
-    stop
+    // One handler for the whole program: who gets no window plays another game without one.
+    static STOP: OnceLock<StopFlag> = OnceLock::new();
+    let stop = STOP.get_or_init(|| {
+        let stop = StopFlag::default();
+        let flag = stop.clone();
+        // Without a handler Ctrl-C ends the program at once, and leaves a recording without its
+        // end.
+        if let Err(error) = ctrlc::set_handler(move || flag.set()) {
+            log::warn!("Ctrl-C will not end the game in order: {error}");
+        }
+        stop
+    });
+    stop.clone()
 }
 
 fn play_without_window(

@@ -24,16 +24,26 @@ pub struct RenderArgs {
     pub size: (u32, u32),
 
     /// The PNG file.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = png_name)]
     pub out: PathBuf,
 
     /// Lets the balls move for so many seconds first.
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = not_negative)]
+    #[arg(allow_negative_numbers = true)]
     pub at: f64,
 
     /// Prints the summary as a JSON line.
     #[arg(long)]
     pub json: bool,
+}
+
+/// The name of a picture, which is a PNG file whatever its name says.
+fn png_name(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(path),
+        _ => Err(String::from("pictures are PNG files: write a name that ends in .png")),
+    }
 }
 
 /// What was written.

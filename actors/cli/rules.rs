@@ -115,7 +115,8 @@ impl Session<'_> {
     ) -> Result<(), Error> {
         loop {
             let mut bytes = Vec::new();
-            if lines.take(LINE_BYTES_MAX).read_until(b'\n', &mut bytes)? == 0 {
+            let failed = |reason| Error::Read { path: name.into(), reason };
+            if lines.take(LINE_BYTES_MAX).read_until(b'\n', &mut bytes).map_err(failed)? == 0 {
                 return Ok(());
             }
             match self.console.feed_line(&String::from_utf8_lossy(&bytes)) {

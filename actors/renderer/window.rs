@@ -423,6 +423,7 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::PageDown => Key::PageDown,
         Code::F1 => Key::Help,
         Code::C => Key::Letter('c'),
+        Code::F => Key::Letter('f'),
         Code::P => Key::Letter('p'),
         Code::Q => Key::Letter('q'),
         Code::R => Key::Letter('r'),

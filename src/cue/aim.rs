@@ -74,9 +74,19 @@ impl Aim {
         ball_centre + self.contact_normal() * ball_radius_m
     }
 
-    /// Centre of the tip sphere when it meets the ball [m]: both spheres share the normal.
+    /// Centre of a pool cue's tip sphere when it meets the ball [m]: both spheres share the normal.
     pub fn tip_at_contact(&self, ball_centre: DVec3, ball_radius_m: f64) -> DVec3 {
-        ball_centre + self.contact_normal() * (ball_radius_m + TIP_RADIUS_M)
+        self.tip_of_radius_at_contact(TIP_RADIUS_M, ball_centre, ball_radius_m)
+    }
+
+    /// The same for a tip of another radius [m].
+    pub fn tip_of_radius_at_contact(
+        &self,
+        tip_radius_m: f64,
+        ball_centre: DVec3,
+        ball_radius_m: f64,
+    ) -> DVec3 {
+        ball_centre + self.contact_normal() * (ball_radius_m + tip_radius_m)
     }
 
     /// The same, pulled back along the shaft by `distance_m` [m].

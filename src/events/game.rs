@@ -380,6 +380,11 @@ pub enum Health {
         /// Why.
         reason: String,
     },
+    /// Another one took its place, and lost nothing.
+    ActorRestarted {
+        /// Its name.
+        actor: String,
+    },
     /// A queue was full: how many were dropped so far.
     QueueFull {
         /// Its name.

@@ -14,6 +14,12 @@ const BEHIND_M: f64 = 1.0;
 const AHEAD_M: f64 = 0.35;
 /// How high the eye is over the cue ball, as an angle [rad].
 const RISE_RAD: f64 = 16.0 * DEGREE;
+/// The same while the balls roll: farther back, higher, and over more of the table.
+const WATCH_BEHIND_M: f64 = 1.5;
+/// See [`WATCH_BEHIND_M`] [m].
+const WATCH_AHEAD_M: f64 = 0.75;
+/// See [`WATCH_BEHIND_M`] [rad].
+const WATCH_RISE_RAD: f64 = 34.0 * DEGREE;
 /// How far it stays above the cue [rad].
 const OVER_CUE_RAD: f64 = 12.0 * DEGREE;
 /// Lowest and highest eye [rad]: above the rails, and never straight above what it looks at.
@@ -35,13 +41,21 @@ pub(super) enum Viewpoint {
         /// How the cue is held.
         aim: Aim,
     },
+    /// Over a stroke that was made: the cue is out of the way.
+    Watch {
+        /// Where the ball's middle was [m].
+        ball: DVec3,
+        /// How the cue was held.
+        aim: Aim,
+    },
 }
 
 impl Viewpoint {
     /// Whether both are the same place, apart from how the cue is held.
     fn is_like(&self, other: &Viewpoint) -> bool {
         match (self, other) {
-            (Viewpoint::Cue { ball: a, .. }, Viewpoint::Cue { ball: b, .. }) => a == b,
+            (Viewpoint::Cue { ball: a, .. }, Viewpoint::Cue { ball: b, .. })
+            | (Viewpoint::Watch { ball: a, .. }, Viewpoint::Watch { ball: b, .. }) => a == b,
             _ => self == other,
         }
     }
@@ -125,16 +139,29 @@ impl Camera {
                 CameraPose { eye, target: DVec3::ZERO, ..usual }
             }
             Viewpoint::Cue { ball, aim } => {
-                let (sin_a, cos_a) = libm::sincos(aim.azimuth_rad);
-                let ahead = DVec2::new(cos_a, sin_a);
                 let rise = RISE_RAD.max(aim.elevation_rad + OVER_CUE_RAD);
-                let (sin, cos) = libm::sincos(rise);
-                let back = (-ahead * cos).extend(sin) * BEHIND_M;
-                let pose = self.orbit(ball, back, usual);
-                let aside = (ball - pose.eye).truncate().normalize_or(ahead);
-                CameraPose { target: ball + (aside * AHEAD_M).extend(0.0), ..pose }
+                self.behind(ball, aim, (BEHIND_M, AHEAD_M, rise))
+            }
+            Viewpoint::Watch { ball, aim } => {
+                self.behind(ball, aim, (WATCH_BEHIND_M, WATCH_AHEAD_M, WATCH_RISE_RAD))
             }
         }
+    }
+
+    /// The eye so far behind a ball, looking so far ahead of it, so high above it.
+    fn behind(
+        &self,
+        ball: DVec3,
+        aim: Aim,
+        (back_m, ahead_m, rise): (f64, f64, f64),
+    ) -> CameraPose {
+        let (sin_a, cos_a) = libm::sincos(aim.azimuth_rad);
+        let ahead = DVec2::new(cos_a, sin_a);
+        let (sin, cos) = libm::sincos(rise);
+        let back = (-ahead * cos).extend(sin) * back_m;
+        let pose = self.orbit(ball, back, CameraPose::default());
+        let aside = (ball - pose.eye).truncate().normalize_or(ahead);
+        CameraPose { target: ball + (aside * ahead_m).extend(0.0), ..pose }
     }
 
     /// The eye at `pivot + offset`, turned, raised and zoomed about the pivot.

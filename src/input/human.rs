@@ -10,7 +10,8 @@
 //! | Shift held | a tenth of everything | a tenth | |
 //!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, Escape or `p` pauses, and `q` in a pause quits.
+//! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
+//! somebody else holds `f`, and time runs faster.
 
 use super::camera::{Camera, Viewpoint};
 use super::feel::{
@@ -23,7 +24,7 @@ use super::tip::{Tip, address_path, stroke_path};
 use super::{Button, HumanMode, HumanView, Key, RawInput, sight};
 use crate::ai::withdrawal;
 use crate::ball::POOL_RADIUS_M;
-use crate::cue::{Aim, CuePath};
+use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{
     Command, Event, Fact, FactKind, MenuAction, Source, Topic, Topics, Turn, Zone,
 };
@@ -57,6 +58,9 @@ pub struct Human {
     players: Vec<PlayerId>,
     table: Arc<Table>,
     radius_m: f64,
+    tip_radius_m: f64,
+    /// Where the cue ball lay at first: it is put back there where no bed has a head spot [m].
+    tee: DVec2,
     /// The table as it was last seen.
     seen: Arc<Snapshot>,
 
@@ -93,6 +97,8 @@ impl Human {
             players,
             table,
             radius_m: POOL_RADIUS_M,
+            tip_radius_m: TIP_RADIUS_M,
+            tee: DVec2::ZERO,
             seen: Arc::default(),
             stage: Stage::Waiting,
             turn: None,
@@ -120,6 +126,13 @@ impl Human {
         self
     }
 
+    /// The same with a tip of another radius [m].
+    #[must_use]
+    pub fn with_tip_radius(mut self, radius_m: f64) -> Self {
+        self.tip_radius_m = radius_m;
+        self
+    }
+
     /// What the player does in `tick`, given what the devices said since the tick before.
     ///
     /// While time stands still it is asked on and on for one tick; what it answers then counts
@@ -141,7 +154,14 @@ impl Human {
         let frame = if self.was_paused { Frame::new() } else { std::mem::take(&mut self.pending) };
         self.was_paused = self.paused;
         // A person may act in any tick.
-        Inflow { frame, next: Some(tick.after(1)), paused: self.paused, quit }
+        let next = Some(tick.after(1));
+        Inflow { frame, next, paused: self.paused, hurried: self.is_hurried(), quit }
+    }
+
+    /// Whether the player would rather not wait. Whoever holds the cue has all the time there is.
+    fn is_hurried(&self) -> bool {
+        let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
+        waits && !self.paused && self.held.has(Key::Letter('f'))
     }
 
     /// What the picture shows of the player now.
@@ -187,7 +207,7 @@ impl Human {
                 self.held.button(button, down);
                 match (button, down) {
                     (Button::Left, true) => self.press(),
-                    (Button::Left, false) => self.let_go(),
+                    (Button::Left, false) => self.release(std::mem::take(up)),
                     _ => {}
                 }
             }
@@ -349,7 +369,16 @@ impl Human {
         }
     }
 
-    /// The left button is let go, or counts as such: a stroke that has met nothing is none.
+    /// The left button is let go, after a movement `up` in this tick. The tip lags the hand: a
+    /// hand that has gone through the ball has made its stroke, and the tip follows.
+    fn release(&mut self, up: f64) {
+        match &mut self.stage {
+            Stage::Stroking(tip) if tip.is_hand_through(up) => tip.let_go(up),
+            _ => self.let_go(),
+        }
+    }
+
+    /// The cue is held no more, as far as a stroke goes: one that has met nothing is none.
     fn let_go(&mut self) {
         if matches!(self.stage, Stage::Stroking(_)) {
             self.stage = Stage::Aiming;
@@ -363,6 +392,11 @@ impl Human {
     fn move_tip(&mut self, tick: Tick, up: f64) {
         let contact = self.contact();
         let Stage::Stroking(tip) = &mut self.stage else { return };
+        if tip.has_arrived_alone() {
+            // It met nothing.
+            self.let_go();
+            return;
+        }
         if let Some(stretch) = tip.step(up) {
             let path = stroke_path(&self.aim, contact, stretch, tick.start_s());
             self.path = Some(path.clone());
@@ -380,7 +414,7 @@ impl Human {
     }
 
     fn contact(&self) -> DVec3 {
-        self.aim.tip_at_contact(self.centre, self.radius_m)
+        self.aim.tip_of_radius_at_contact(self.tip_radius_m, self.centre, self.radius_m)
     }
 
     fn follow_with_camera(&mut self) {
@@ -389,7 +423,8 @@ impl Human {
             Stage::Placing(_) => Viewpoint::Bird,
             _ if self.is_bird => Viewpoint::Bird,
             Stage::Waiting => Viewpoint::Overview,
-            Stage::Aiming | Stage::Stroking(_) | Stage::Struck => behind_cue,
+            Stage::Aiming | Stage::Stroking(_) => behind_cue,
+            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
         };
         self.camera.go_to(viewpoint);
     }
@@ -454,7 +489,7 @@ impl Human {
         match zone {
             Some(zone) => {
                 let bed = self.table.bed.as_ref();
-                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed));
+                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed, self.tee));
             }
             None => self.address(),
         }
@@ -519,6 +554,7 @@ impl Participant for Human {
 
     fn start(&mut self, table: &Snapshot) -> Outcome {
         self.seen = Arc::new(table.clone());
+        self.tee = sight::cue_ball(table).map_or(DVec2::ZERO, DVec3::truncate);
         Outcome::default()
     }
 

@@ -55,6 +55,8 @@ pub(super) struct Tip {
     interval: usize,
     /// The last stretch that was handed out stands still.
     is_told: bool,
+    /// No hand moves it any more: it only goes to where the hand let go.
+    is_let_go: bool,
 }
 
 impl Tip {
@@ -69,6 +71,7 @@ impl Tip {
             silent: SPREAD_MAX_TICKS,
             interval: 1,
             is_told: false,
+            is_let_go: false,
         }
     }
 
@@ -82,10 +85,34 @@ impl Tip {
         self.speed_m_s
     }
 
+    /// Whether the hand, after a movement `up` [heights of the window], is where the tip meets the
+    /// ball or beyond.
+    pub fn is_hand_through(&self, up: f64) -> bool {
+        let on_its_way_m: f64 = self.spread.iter().sum();
+        0.0 <= self.hand_m + on_its_way_m + up * STROKE_M_PER_HEIGHT
+    }
+
+    /// The hand lets go, after a movement `up` [heights of the window].
+    pub fn let_go(&mut self, up: f64) {
+        self.take(up * STROKE_M_PER_HEIGHT);
+        self.is_let_go = true;
+    }
+
+    /// Whether the tip rests where a hand let go.
+    pub fn has_arrived_alone(&self) -> bool {
+        let is_spread = self.spread.iter().all(|movement| *movement == 0.0);
+        self.is_let_go
+            && is_spread
+            && self.speed_m_s == 0.0
+            && (self.at_m - self.hand_m).abs() < ARRIVED_M
+    }
+
     /// One tick, in which the mouse moved by `up` heights of the window. None if the tip stands
     /// and that was said already.
     pub fn step(&mut self, up: f64) -> Option<Stretch> {
-        self.take(up * STROKE_M_PER_HEIGHT);
+        if !self.is_let_go {
+            self.take(up * STROKE_M_PER_HEIGHT);
+        }
         self.hand_m += std::mem::take(&mut self.spread[self.next]);
         self.next = (self.next + 1) % SPREAD_MAX_TICKS;
         self.hand_m = self.hand_m.clamp(-PULL_MAX_M, self.at_m.max(-PULL_MAX_M) + LEAD_MAX_M);

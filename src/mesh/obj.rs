@@ -1,7 +1,8 @@
-//! Wavefront OBJ, from text: the lines `v` and `f`; everything that only concerns display is
-//! passed over.
+//! Wavefront OBJ, from text: the lines `v` and `f`, and materials that have the name of a surface;
+//! everything that only concerns display is passed over.
 
 use super::{Face, Mesh, Surface};
+use crate::ids::PocketId;
 use glam::DVec3;
 
 /// Most vertices, and most triangles, that are accepted from one text.
@@ -31,13 +32,28 @@ pub enum ObjError {
     NoFaces,
 }
 
-/// Reads a mesh; every face gets `surface`.
+/// The surfaces that a material's name chooses.
+///
+/// A course has one hole at most, and to the rules it is the pocket at the foot, left.
+const SURFACES: [(&str, Surface); 6] = [
+    ("cloth", Surface::Cloth),
+    ("wood", Surface::Wood),
+    ("floor", Surface::Floor),
+    ("obstacle", Surface::Obstacle),
+    ("pocket", Surface::Pocket(PocketId::Fl)),
+    ("hole", Surface::PocketBottom(PocketId::Fl)),
+];
+
+/// Reads a mesh; every face gets `surface`, unless its material has the name of another: `cloth`,
+/// `wood`, `floor`, `obstacle`, `pocket` (the wall of a hole) or `hole` (its bottom: a ball that
+/// touches it is down).
 ///
 /// Polygons become fans of triangles round their first corner. Corners may be written `i`, `i/t`,
-/// `i/t/n` or `i//n`, and count from 1, or backwards from −1. Groups, materials, normals and
+/// `i/t/n` or `i//n`, and count from 1, or backwards from −1. Groups, other materials, normals and
 /// texture coordinates are ignored; other keywords are errors.
 pub fn parse_obj(text: &str, surface: Surface) -> Result<Mesh, ObjError> {
     let mut mesh = Mesh::default();
+    let mut made = surface;
     for (index, content) in text.lines().enumerate() {
         let line = index + 1;
         let content = content.split('#').next().unwrap_or_default();
@@ -49,9 +65,13 @@ pub fn parse_obj(text: &str, surface: Surface) -> Result<Mesh, ObjError> {
                 }
                 mesh.vertices.push(vertex(words, line)?);
             }
-            Some("f") => face(&mut mesh, words, surface, line)?,
-            Some("vn" | "vt" | "vp" | "o" | "g" | "s" | "usemtl" | "mtllib" | "l" | "p") | None => {
+            Some("f") => face(&mut mesh, words, made, line)?,
+            Some("usemtl") => {
+                let name = words.next().unwrap_or_default();
+                let known = SURFACES.iter().find(|(known, _)| *known == name);
+                made = known.map_or(surface, |(_, surface)| *surface);
             }
+            Some("vn" | "vt" | "vp" | "o" | "g" | "s" | "mtllib" | "l" | "p") | None => {}
             Some(other) => {
                 return Err(problem(
                     line,
@@ -176,6 +196,16 @@ mod tests {
         let mesh = parse_obj("v 0.1 -2e-3 3 1\nv 1 0 0\nv 0 1 0\nf 1 2 3", Surface::Wood).unwrap();
         assert_eq!(mesh.vertices[0], DVec3::new(0.1, -2e-3, 3.0));
         assert_eq!(mesh.faces[0].surface, Surface::Wood);
+    }
+
+    #[test]
+    fn materials_with_the_name_of_a_surface_choose_it() {
+        let text = format!("{SQUARE}f 1 2 3\nusemtl wood\nf 1 2 3 4\nusemtl Red\nf 1 2 3\n");
+        let mesh = parse_obj(&text, Surface::Floor).unwrap();
+        let surfaces: Vec<_> = mesh.faces.iter().map(|face| face.surface).collect();
+        assert_eq!(surfaces, [Surface::Floor, Surface::Wood, Surface::Wood, Surface::Floor]);
+        let hole = parse_obj(&format!("{SQUARE}usemtl hole\nf 1 2 3"), Surface::Cloth).unwrap();
+        assert!(matches!(hole.faces[0].surface, Surface::PocketBottom(_)));
     }
 
     #[test]

@@ -263,7 +263,9 @@ impl FixedStep {
     /// The first step whose grid time is not before `at`.
     fn step_at(&self, at: Seconds) -> u64 {
         let guess = (at / self.h).max(0.0) as u64;
-        (guess.saturating_sub(1)..).find(|step| self.grid(*step) >= at).unwrap_or(guess)
+        // The quotient may be off by one; a time that no run reaches has no step after it.
+        let near = guess.saturating_sub(1)..=guess.saturating_add(2);
+        near.into_iter().find(|step| self.grid(*step) >= at).unwrap_or(u64::MAX)
     }
 
     /// One step, or as many as can be skipped before `limit`.

@@ -7,8 +7,8 @@
 //! runs after the ball strikes it again, and that is told. When the tip meets what is the solvers'
 //! own business.
 
-use super::{spring, tolerance};
-use crate::cue::{CuePath, CuePose, TIP_RADIUS_M};
+use super::{Parameters, spring, tolerance};
+use crate::cue::{CuePath, CuePose};
 use crate::hash::StateHash;
 use crate::units::Seconds;
 use glam::DVec3;
@@ -39,6 +39,8 @@ pub(super) struct GuidedCue {
     path: Arc<CuePath>,
     lead: Lead,
     coupling_rad_s: f64,
+    /// Radius of the tip [m].
+    pub tip_radius_m: f64,
     struck: SmallVec<[Struck; 2]>,
     /// The present stroke has struck already.
     pub has_struck: bool,
@@ -46,9 +48,15 @@ pub(super) struct GuidedCue {
 
 impl GuidedCue {
     /// A cue at the start of `path`.
-    pub fn new(path: Arc<CuePath>, coupling_rad_s: f64) -> Self {
-        let (lead, struck) = (Lead::default(), SmallVec::new());
-        GuidedCue { path, lead, coupling_rad_s, struck, has_struck: false }
+    pub fn new(path: Arc<CuePath>, parameters: &Parameters) -> Self {
+        GuidedCue {
+            path,
+            lead: Lead::default(),
+            coupling_rad_s: parameters.cue_coupling_rad_s,
+            tip_radius_m: parameters.tip_radius_m,
+            struck: SmallVec::new(),
+            has_struck: false,
+        }
     }
 
     /// Goes on along another path. A path that is not solid ends the stroke.
@@ -97,10 +105,10 @@ impl GuidedCue {
     /// Forgets struck balls that have parted by `at`; `place` gives a ball's centre and radius [m],
     /// none if it is out of play.
     pub fn forget_parted(&mut self, at: Seconds, place: impl Fn(usize) -> Option<(DVec3, f64)>) {
-        let tip = self.pose(at).tip;
+        let (tip, tip_radius_m) = (self.pose(at).tip, self.tip_radius_m);
         self.struck.retain(|struck| {
             place(struck.ball).is_some_and(|(centre, radius_m)| {
-                centre.distance(tip) - radius_m - TIP_RADIUS_M <= tolerance::APART_M
+                centre.distance(tip) - radius_m - tip_radius_m <= tolerance::APART_M
             }) && at - struck.since_s <= tolerance::TIP_BLIND_S
         });
     }

@@ -53,6 +53,8 @@ pub struct Parameters {
     pub cue_mass_kg: f64,
     /// Effective mass of its end across the shaft [kg].
     pub cue_end_mass_kg: f64,
+    /// Radius of its tip's curvature [m].
+    pub tip_radius_m: f64,
     /// Rate at which the hand draws a cue back to its path after a contact [rad/s]: the
     /// undamped frequency of the critically damped coupling.
     pub cue_coupling_rad_s: f64,
@@ -85,6 +87,7 @@ impl Parameters {
             gravity_m_s2: 9.81,
             cue_mass_kg: crate::cue::CUE_MASS_KG,
             cue_end_mass_kg: crate::cue::CUE_END_MASS_KG,
+            tip_radius_m: crate::cue::TIP_RADIUS_M,
             cue_coupling_rad_s: 40.0,
             static_over_sliding: 1.0,
             ball_law: BallLaw::default(),
@@ -175,8 +178,11 @@ impl Parameters {
                 return Err(Setting { key, value, allowed: positive });
             }
         }
-        for (key, value) in [("cue mass", self.cue_mass_kg), ("cue end mass", self.cue_end_mass_kg)]
-        {
+        for (key, value) in [
+            ("cue mass", self.cue_mass_kg),
+            ("cue end mass", self.cue_end_mass_kg),
+            ("tip radius", self.tip_radius_m),
+        ] {
             if !(value.is_finite() && 0.0 < value) {
                 return Err(Setting { key, value, allowed: "must be more than 0" });
             }

@@ -4,20 +4,29 @@ use super::event_driven::Segment;
 use super::fixed_step::{Knot, between};
 use super::{Ledger, PhysicsError, Simulation, Work};
 use crate::ball::{BallPlace, BallState};
-use crate::cue::{CuePath, CuePiece, TIP_RADIUS_M};
+use crate::cue::{CuePath, CuePiece};
 use crate::events::Fact;
 use crate::ids::BallId;
+use crate::one_line::without_place;
 use crate::units::Seconds;
 use glam::DVec3;
+use serde::Deserialize;
 
 /// The tip sets out this far from the ball [m].
 const RUN_UP_M: f64 = 0.005;
+
+/// A slower tip would take more than five seconds for its run-up [m/s].
+const SPEED_LEAST_M_S: f64 = 0.001;
 
 /// After the contact the tip brakes for this long, then the cue is lifted [s].
 const FOLLOW_THROUGH_S: Seconds = 0.02;
 
 /// A stroke at the cue ball.
-#[derive(Debug, Clone, Copy, PartialEq)]
+///
+/// JSON: `{"speed_m_s":4,"azimuth_deg":10,"elevation_deg":5,"side":0.1,"height":-0.2}`; what is
+/// missing is as in [`Strike::CENTRE`].
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Strike {
     /// Speed of the tip at the contact [m/s].
     pub speed_m_s: f64,
@@ -27,9 +36,27 @@ pub struct Strike {
     pub elevation_deg: f64,
     /// Where the tip hits the ball, from its middle to the right as the player sees it, over the
     /// ball's radius.
+    #[serde(rename = "side")]
     pub side_offset: f64,
     /// The same upwards: positive makes follow, negative draw.
+    #[serde(rename = "height")]
     pub height_offset: f64,
+}
+
+/// A line is no stroke.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("column {column}: {problem}; a line is for example {{\"speed_m_s\":4,\"azimuth_deg\":10}}")]
+pub struct StrikeError {
+    /// From 1.
+    pub column: usize,
+    /// What is wrong.
+    pub problem: String,
+}
+
+impl Default for Strike {
+    fn default() -> Self {
+        Strike::CENTRE
+    }
 }
 
 impl Strike {
@@ -42,6 +69,17 @@ impl Strike {
         height_offset: 0.0,
     };
 
+    /// Reads a stroke from a line of JSON.
+    ///
+    /// # Errors
+    /// [`StrikeError`] with the column and the keys that there are.
+    pub fn from_json(line: &str) -> Result<Self, StrikeError> {
+        serde_json::from_str(line).map_err(|error| StrikeError {
+            column: error.column().max(1),
+            problem: without_place(&error),
+        })
+    }
+
     /// Unit vector along the shaft, from butt to tip.
     pub fn direction(&self) -> DVec3 {
         let radians = |degrees: f64| degrees * (core::f64::consts::PI / 180.0);
@@ -50,18 +88,19 @@ impl Strike {
         DVec3::new(cos_e * cos_a, cos_e * sin_a, -sin_e)
     }
 
-    /// The path of the tip that makes this stroke at a ball at `ball` [m] of radius `radius_m`,
-    /// from
-    /// `start_s` on: straight along the shaft at constant speed, and braked after the contact.
+    /// The path of a tip of radius `tip_radius_m` that makes this stroke at a ball at `ball` [m] of
+    /// radius `radius_m`, from `start_s` on: straight along the shaft at constant speed, and braked
+    /// after the contact.
     pub fn path(
         &self,
         ball: DVec3,
         radius_m: f64,
+        tip_radius_m: f64,
         start_s: Seconds,
     ) -> Result<CuePath, PhysicsError> {
         let Strike { speed_m_s: speed, side_offset: side, height_offset: height, .. } = *self;
-        if !(speed.is_finite() && 0.0 < speed) {
-            let allowed = "the tip's speed must be positive";
+        if !(speed.is_finite() && SPEED_LEAST_M_S <= speed) {
+            let allowed = "the tip's speed must be at least 0.001 m/s";
             return Err(PhysicsError::Setting { key: "speed_m_s", value: speed, allowed });
         }
         for (key, value) in
@@ -85,7 +124,7 @@ impl Strike {
         let behind = (1.0 - offset * offset).sqrt();
         // From the ball's centre to where the tip's centre is at the contact.
         let outwards = right * side + up * height - direction * behind;
-        let contact = ball + outwards * (radius_m + TIP_RADIUS_M);
+        let contact = ball + outwards * (radius_m + tip_radius_m);
 
         let run_up_s = RUN_UP_M / speed;
         let velocity = direction * speed;

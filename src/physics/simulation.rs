@@ -44,6 +44,7 @@ const LONGEST_SHOT_S: Seconds = 600.0;
 pub struct Simulation {
     engine: Engine,
     now_s: Seconds,
+    tip_radius_m: f64,
 }
 
 /// The solvers to choose from.
@@ -92,6 +93,7 @@ impl Simulation {
         settings: &PhysicsSettings,
         parameters: Parameters,
     ) -> Result<Self, PhysicsError> {
+        let tip_radius_m = parameters.tip_radius_m;
         let engine = match settings.solver {
             SolverKind::EventDriven if settings.profile == Profile::Paper2009 => {
                 return Err(PhysicsError::ProfileNeedsSteps);
@@ -105,7 +107,7 @@ impl Simulation {
                 Engine::FixedStep(Box::new(solver))
             }
         };
-        Ok(Simulation { engine, now_s: 0.0 })
+        Ok(Simulation { engine, now_s: 0.0, tip_radius_m })
     }
 
     /// Other balls at their start, at time zero, on the same table with the same settings. The
@@ -115,7 +117,7 @@ impl Simulation {
             Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),
             Engine::FixedStep(solver) => Engine::FixedStep(Box::new(solver.with_balls(balls)?)),
         };
-        Ok(Simulation { engine, now_s: 0.0 })
+        Ok(Simulation { engine, now_s: 0.0, tip_radius_m: self.tip_radius_m })
     }
 
     /// The time reached [s].
@@ -152,7 +154,7 @@ impl Simulation {
         let radius_m = radius_m.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
         // A command acts at the latest one step from now; the tip must not have set out by then.
         let start_s = self.now_s + self.step_s();
-        let stroke = strike.path(ball.position, radius_m, start_s)?;
+        let stroke = strike.path(ball.position, radius_m, self.tip_radius_m, start_s)?;
         let lift_s = stroke.end_s().unwrap_or(start_s);
         self.apply(self.now_s, &Command::MoveCue(stroke.into()))?;
         self.apply(lift_s, &Command::LiftCue)?;

@@ -2,7 +2,7 @@
 
 use super::look::{BallLook, ball_look};
 use crate::ball::{BallPlace, BallState, POOL_RADIUS_M};
-use crate::cue::CuePose;
+use crate::cue::{CuePose, TIP_RADIUS_M};
 use crate::ids::BallId;
 use crate::input::{CameraPose, HumanMode, HumanView};
 use crate::physics::Snapshot;
@@ -15,22 +15,37 @@ const LINE_HALF_WIDTH_M: f32 = 0.0016;
 /// How far the line of an object ball's way is drawn [m].
 const OBJECT_WAY_M: f64 = 0.30;
 
-/// The radii of the balls; they do not change in a game.
-#[derive(Debug, Clone, Default)]
-pub struct Radii(Vec<(BallId, f64)>);
+/// The radii of the balls and of the tip; they do not change in a game.
+#[derive(Debug, Clone)]
+pub struct Radii {
+    balls: Vec<(BallId, f64)>,
+    tip_m: f64,
+}
+
+impl Default for Radii {
+    fn default() -> Self {
+        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M }
+    }
+}
 
 impl Radii {
     /// From ids and radii [m].
     pub fn new(radii: impl IntoIterator<Item = (BallId, f64)>) -> Self {
         let mut radii: Vec<_> = radii.into_iter().collect();
         radii.sort_by_key(|(id, _)| *id);
-        Radii(radii)
+        Radii { balls: radii, ..Radii::default() }
+    }
+
+    /// The same with a tip of another radius [m].
+    #[must_use]
+    pub fn with_tip(self, tip_m: f64) -> Self {
+        Radii { tip_m, ..self }
     }
 
     /// The radius of a ball [m]; a pool ball's if nobody said.
     pub fn of(&self, id: BallId) -> f64 {
-        let found = self.0.binary_search_by_key(&id, |(known, _)| *known);
-        found.map_or(POOL_RADIUS_M, |i| self.0[i].1)
+        let found = self.balls.binary_search_by_key(&id, |(known, _)| *known);
+        found.map_or(POOL_RADIUS_M, |i| self.balls[i].1)
     }
 }
 
@@ -101,7 +116,7 @@ impl DrawList {
         let mut list = DrawList {
             camera: view.camera,
             balls,
-            cue: world.cue,
+            cue: world.cue.map(|cue| held(cue, radii)),
             lines: Vec::new(),
             ghosts: Vec::new(),
         };
@@ -157,6 +172,11 @@ impl DrawList {
             colour,
         });
     }
+}
+
+/// A cue whose drawn tip, that of a pool cue, ends where the real one does.
+fn held(cue: CuePose, radii: &Radii) -> CuePose {
+    CuePose { tip: cue.tip + cue.direction * (radii.tip_m - TIP_RADIUS_M), ..cue }
 }
 
 fn instance(ball: &BallState, radii: &Radii) -> BallInstance {

@@ -3,7 +3,7 @@
 use super::scoreboard::Scoreboard;
 use super::words::Words;
 use crate::cue::OFFSET_LIMIT;
-use crate::events::{Group, PlayerState};
+use crate::events::{BallInHand, Group, PlayerState, ShotKind};
 use crate::ids::{BallId, PlayerId};
 use crate::input::{HumanMode, HumanView};
 use crate::rules::Texts;
@@ -94,7 +94,19 @@ impl Hud {
                 hud.message.extend(texts.why(verdict).into_iter().take(verdict.fouls.len()));
             }
         } else if let Some(turn) = board.turn.as_ref().filter(|_| !board.is_rolling) {
-            hud.message.push(texts.turn(turn));
+            let mut told = (**turn).clone();
+            if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
+                // The ball that was in hand lies on the table.
+                told.ball_in_hand = BallInHand::None;
+            }
+            if turn.on_table.is_empty() {
+                // Without object balls there is nothing to break.
+                told.shot = ShotKind::Normal;
+            }
+            hud.message.push(texts.turn(&told));
+        }
+        if board.is_unrecorded {
+            hud.message.push(words.get("not_recorded"));
         }
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {

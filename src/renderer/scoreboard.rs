@@ -1,7 +1,7 @@
 //! The scoreboard: the state of a game as a window shows it, reduced from events.
 
 use crate::events::{
-    Event, FactKind, Group, Groups, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
+    Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Scoreboard {
     pub is_rolling: bool,
     /// The game is over; who won, if anybody.
     pub over: Option<Option<PlayerId>>,
+    /// The recording stands still, or has ended.
+    pub is_unrecorded: bool,
 }
 
 impl Scoreboard {
@@ -43,6 +45,7 @@ impl Scoreboard {
             Topic::BallPocketed,
             Topic::BallOffTable,
             Topic::Settled,
+            Topic::Health,
         ])
     }
 
@@ -76,7 +79,16 @@ impl Scoreboard {
                 FactKind::Settled { .. } => self.is_rolling = false,
                 _ => {}
             },
-            Event::Command(_) | Event::Menu(_) | Event::Health(_) => {}
+            Event::Health(health) => match &**health {
+                Health::ActorFailed { actor, .. } if actor == "recorder" => {
+                    self.is_unrecorded = true;
+                }
+                Health::ActorRestarted { actor } if actor == "recorder" => {
+                    self.is_unrecorded = false;
+                }
+                _ => {}
+            },
+            Event::Command(_) | Event::Menu(_) => {}
         }
     }
 

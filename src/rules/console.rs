@@ -3,11 +3,11 @@
 use super::fact_json::read_fact;
 use super::phase::Phase;
 use super::referee::Referee;
-use super::scenario::without_place;
 use super::state::State;
 use crate::events::{Event, Turn, Verdict};
 use crate::ids::BallId;
 use crate::ids::GameKind;
+use crate::one_line::{one_line, without_place};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::sync::Arc;
@@ -120,7 +120,7 @@ impl Console {
             let state = State::deserialize(state).map_err(|error| ConsoleError::NotAFact {
                 line,
                 column: column_of(text, Some("state")),
-                problem: format!("state: {error}"),
+                problem: one_line(&format!("state: {error}"), 400),
             })?;
             self.referee = Referee::resume(self.referee.game(), state);
             let said = self.referee.begin([]);

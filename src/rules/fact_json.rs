@@ -2,6 +2,7 @@
 
 use crate::events::{Fact, FactKind};
 use crate::ids::PlayerId;
+use crate::one_line::one_line;
 use serde_json::{Map, Value};
 
 /// Why an object is no fact.
@@ -49,7 +50,8 @@ pub(super) fn read_fact(mut object: Map<String, Value>) -> Result<Fact, NoFact> 
 }
 
 fn parse(object: &Map<String, Value>) -> Result<Fact, String> {
-    serde_json::from_value(Value::Object(object.clone())).map_err(|error| error.to_string())
+    serde_json::from_value(Value::Object(object.clone()))
+        .map_err(|error| one_line(&error.to_string(), 400))
 }
 
 /// Serde does not say which value it disliked: it is the one without which the complaint changes.

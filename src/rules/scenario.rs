@@ -6,6 +6,7 @@ use super::shot::{Shot, watch};
 use super::state::State;
 use crate::events::{Call, Verdict};
 use crate::ids::GameKind;
+use crate::one_line::{one_line, without_place};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -119,16 +120,10 @@ pub fn read_scenarios(text: &str) -> Result<Vec<Scenario>, ScenarioError> {
     match scenarios.iter().find(|scenario| scenario.events.len() > LENGTH_MAX) {
         Some(Scenario { id, events, .. }) => Err(ScenarioError::TooMany {
             count: events.len(),
-            what: format!("events in scenario '{id}'"),
+            what: format!("events in scenario '{}'", one_line(id, 60)),
         }),
         None => Ok(scenarios),
     }
-}
-
-/// The message of a JSON error without its own line and column, which the caller knows better.
-pub(super) fn without_place(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    text.rfind(" at line ").map_or(text.as_str(), |end| &text[..end]).to_string()
 }
 
 /// Judges a scenario and compares. Never fails otherwise than by its status.
@@ -156,7 +151,10 @@ pub fn run_scenario(scenario: &Scenario) -> ScenarioResult {
 }
 
 fn verdict_of(scenario: &Scenario) -> Result<Verdict, Difference> {
-    let problem = |key: &str, problem: String| Difference { key: key.into(), problem };
+    let problem = |key: &str, problem: String| Difference {
+        key: key.into(),
+        problem: one_line(&problem, 400),
+    };
     let game: GameKind = scenario
         .ruleset
         .parse()

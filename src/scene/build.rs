@@ -4,6 +4,7 @@ use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::mesh::{Face, Mesh, parse_obj};
+use crate::physics::Parameters;
 use crate::rack::Rack;
 use crate::table::Table;
 use glam::{DQuat, DVec3};
@@ -87,6 +88,15 @@ impl Scene {
         }
         balls.sort_by_key(|(ball, _)| ball.id);
         Ok(balls)
+    }
+
+    /// The numbers of the contact laws, with those of the scene's own cue.
+    pub fn parameters(&self) -> Parameters {
+        let mut parameters = Parameters::of(&self.physics);
+        if let Some(cue) = &self.cue {
+            cue.apply(&mut parameters);
+        }
+        parameters
     }
 
     /// The players whose commands come from the input: at a mouse, or from a recording.

@@ -181,6 +181,11 @@ fn players(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
                 "write [actors] and input = \"recorded:FILE\"",
             );
         }
+        if player.kind == PlayerKind::Paper && scene.cue.is_some_and(|cue| cue != CueSection::POOL)
+        {
+            let fix = "remove the keys of [cue], or write kind = \"human\"";
+            return wrong("a computer player knows only a pool cue", fix);
+        }
         if player.kind == PlayerKind::Paper && scene.table.is_none() {
             return wrong("a computer player aims at pockets", "write a section [table]");
         }

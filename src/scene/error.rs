@@ -1,5 +1,7 @@
 //! What is wrong with a scene, in one line that says how to put it right.
 
+use crate::one_line::one_line;
+
 /// The first thing that is wrong with a scene file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}:{line}: {key}{}: {allowed}; {fix}", found_text(found))]
@@ -33,27 +35,14 @@ impl SceneError {
         fix: &str,
     ) -> Self {
         SceneError {
-            file: one_line(file, 200),
+            file: one_line(file, 200).into(),
             line,
-            key: one_line(key, 120),
-            found: found.map(|found| one_line(found, 60)),
-            allowed: one_line(allowed, 400),
-            fix: one_line(fix, 400),
+            key: one_line(key, 120).into(),
+            found: found.map(|found| one_line(found, 60).into()),
+            allowed: one_line(allowed, 400).into(),
+            fix: one_line(fix, 400).into(),
         }
     }
-}
-
-/// `text` without control characters, cut at `length` characters.
-fn one_line(text: &str, length: usize) -> Box<str> {
-    let mut line: String = text
-        .chars()
-        .take(length)
-        .map(|c| if c.is_control() || matches!(c, '\u{2028}' | '\u{2029}') { ' ' } else { c })
-        .collect();
-    if text.chars().nth(length).is_some() {
-        line.push('…');
-    }
-    line.into()
 }
 
 /// The candidate that was probably meant by `word`: the same quantity in another unit, or a

@@ -44,7 +44,7 @@ pub(super) fn parse(file_name: &str, text: &str) -> Result<Scene, SceneError> {
         boxes: each(&root, "box", MESHES_MAX, box_section)?,
         balls: root.section("balls")?.map(|section| balls(&section)).transpose()?,
         ball: each(&root, "ball", BALLS_MAX, ball)?,
-        cue: empty(&root, "cue")?.then_some(CueSection),
+        cue: root.section("cue")?.map(|section| cue(&section)).transpose()?,
         rules: root.section("rules")?.map(|section| rules(&section)).transpose()?,
         players: each(&root, "player", 2, player)?,
         camera: empty(&root, "camera")?.then_some(CameraSection),
@@ -405,6 +405,26 @@ fn player(section: &Section<'_>) -> Result<PlayerSection, SceneError> {
         noise: noise.unwrap_or(1.0),
         throw_factor,
         line: section.line(),
+    })
+}
+
+fn cue(section: &Section<'_>) -> Result<CueSection, SceneError> {
+    section.allow(&[
+        "tip_radius_m",
+        "mass_kg",
+        "end_mass_kg",
+        "tip_restitution",
+        "tip_friction",
+    ])?;
+    let radius = Limits { low: 1e-3, high: 10.0, unit: "(m)", example: "0.0106" };
+    let mass = Limits { low: 1e-3, high: 100.0, unit: "(kg)", example: "0.54" };
+    let share = Limits { low: 0.0, high: 1.0, unit: "", example: "0.75" };
+    Ok(CueSection {
+        tip_radius_m: section.number("tip_radius_m", radius)?,
+        mass_kg: section.number("mass_kg", mass)?,
+        end_mass_kg: section.number("end_mass_kg", mass)?,
+        tip_restitution: section.number("tip_restitution", share)?,
+        tip_friction: section.number("tip_friction", share)?,
     })
 }
 

@@ -12,6 +12,7 @@ use super::Table;
 use super::parameters::TableParameters;
 use super::plan::Detail;
 use super::quarter::{Part, quarter};
+use crate::mesh::Surface;
 use glam::{DVec2, DVec3};
 
 /// How finely a picture divides a table.
@@ -94,7 +95,8 @@ impl DisplayTriangle {
 }
 
 impl Table {
-    /// The visible parts of a pool table; of any other table its mesh and nothing else.
+    /// The visible parts of a pool table; of any other table its mesh, made of what its surfaces
+    /// say.
     pub fn display(&self) -> Vec<DisplayPart> {
         let Some(table) = &self.parameters else { return self.bare_mesh() };
         let mut parts = body(table);
@@ -103,15 +105,33 @@ impl Table {
     }
 
     fn bare_mesh(&self) -> Vec<DisplayPart> {
-        let triangles: Vec<DisplayTriangle> = (0..self.mesh.faces.len())
-            .map(|index| DisplayTriangle::laid_on(self.mesh.corners(index)))
-            .collect();
-        if triangles.is_empty() {
-            return Vec::new();
-        }
-        vec![smooth::part("mesh", Material::Cloth, &triangles)]
+        let kinds: [SurfaceKind; 5] = [
+            ("ground", Material::Cloth, |surface| surface == Surface::Cloth),
+            ("wood", Material::Wood, |surface| surface == Surface::Wood),
+            ("obstacles", Material::Casting, |surface| {
+                matches!(surface, Surface::Obstacle | Surface::Cushion(_))
+            }),
+            ("holes", Material::Leather, |surface| {
+                matches!(surface, Surface::Pocket(_) | Surface::PocketBottom(_))
+            }),
+            ("floor", Material::Floor, |surface| surface == Surface::Floor),
+        ];
+        kinds
+            .into_iter()
+            .map(|(name, material, belongs)| {
+                let triangles: Vec<DisplayTriangle> = (0..self.mesh.faces.len())
+                    .filter(|index| belongs(self.mesh.faces[*index].surface))
+                    .map(|index| DisplayTriangle::laid_on(self.mesh.corners(index)))
+                    .collect();
+                smooth::part(name, material, &triangles)
+            })
+            .filter(|part| !part.indices.is_empty())
+            .collect()
     }
 }
+
+/// Name, material, and which surfaces of a mesh it takes.
+type SurfaceKind = (&'static str, Material, fn(Surface) -> bool);
 
 /// Name, material, and which parts of the body it takes.
 type Kind = (&'static str, Material, fn(Part) -> bool);

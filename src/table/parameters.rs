@@ -4,7 +4,18 @@
 //! at, and the picture. The shipped set stands in `config/tables`, each number with its source.
 
 use super::TableError;
+use crate::one_line::one_line;
 use serde::{Deserialize, Serialize};
+
+/// What is wrong with a text, and in which line. The parser's own message has several lines.
+fn with_line(text: &str, error: &toml::de::Error) -> String {
+    let message = one_line(error.message(), 400);
+    let before = error.span().and_then(|span| text.get(..span.start));
+    let Some(before) = before else { return message };
+    let index = before.matches('\n').count();
+    let written = one_line(text.lines().nth(index).unwrap_or_default().trim(), 60);
+    format!("line {}, '{written}': {message}", index + 1)
+}
 
 /// Dimensions of a pool table. Heights are above the cloth unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,7 +85,7 @@ impl TableParameters {
     /// Reads the parameters of a table from TOML.
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
         let parameters: Self = toml::from_str(text)
-            .map_err(|error| TableError::Toml { problem: error.to_string() })?;
+            .map_err(|error| TableError::Toml { problem: with_line(text, &error) })?;
         parameters.check()?;
         Ok(parameters)
     }

@@ -1,9 +1,12 @@
 //! The event manager delivers everything once, in stamp order, exactly when it is due, whatever
 //! the order of arrival.
 
+mod model;
+
 use hapticbillard::event_manager::{EventManager, LIMIT, Publication};
 use hapticbillard::events::{
-    Event, Fact, FactKind, MenuAction, PlayerReport, PlayerState, Source, Stamped, Topic, Topics,
+    Command, Event, Fact, FactKind, MenuAction, PlayerReport, PlayerState, Source, Stamped, Topic,
+    Topics, Zone,
 };
 use hapticbillard::hash::Digest;
 use hapticbillard::ids::{BallId, PlayerId};
@@ -16,9 +19,14 @@ use std::sync::Arc;
 const SOURCES: [Source; 3] = [Source::Rules, Source::Ai(PlayerId(1)), Source::Ai(PlayerId(2))];
 
 fn event(number: u8) -> Event {
-    match number % 3 {
+    match number % 4 {
         0 => Event::Menu(MenuAction::Pause),
-        1 => Event::Player(PlayerReport { player: PlayerId::ONE, state: PlayerState::Lazing }),
+        1 => Event::Command(Command::PlaceBall {
+            ball: BallId(u16::from(number)),
+            position_m: Default::default(),
+            zone: Zone::Anywhere,
+        }),
+        2 => Event::Player(PlayerReport { player: PlayerId::ONE, state: PlayerState::Lazing }),
         _ => Event::Fact(Fact {
             time_s: f64::from(number),
             kind: FactKind::HeadStringCrossed { ball: BallId(u16::from(number)) },
@@ -103,7 +111,7 @@ fn a_subscriber_gets_its_topics_and_nothing_else() {
     let mut manager = EventManager::new();
     let menus = manager.subscribe(Topics::of(&[Topic::Menu]));
     let all = manager.subscribe(Topics::of(&[Topic::Menu, Topic::Player]));
-    manager.publish_now(Source::Physics, Tick(1), (0..6).map(event)).unwrap();
+    manager.publish_now(Source::Physics, Tick(1), (0..8).map(event)).unwrap();
     let deliveries = manager.seal(Tick(1));
     let count = |id| deliveries.iter().find(|d| d.to == id).map(|d| d.events.len());
     assert_eq!(count(menus), Some(2));
@@ -115,7 +123,7 @@ fn what_nobody_subscribed_to_is_not_built() {
     let mut manager = EventManager::new();
     manager.subscribe(Topics::of(&[Topic::Menu]));
     assert!(!manager.interest().contains(Topic::HeadStringCrossed));
-    manager.publish_now(Source::Physics, Tick(1), [event(2), event(5)]).unwrap();
+    manager.publish_now(Source::Physics, Tick(1), [event(3), event(7)]).unwrap();
     assert!(manager.seal(Tick(1)).is_empty());
     // It counts all the same: stamps do not depend on who listens.
     manager.publish_now(Source::Physics, Tick(2), [event(0)]).unwrap();
@@ -137,7 +145,7 @@ fn a_delayed_event_can_be_taken_back_by_its_publisher_only() {
     let mut manager = EventManager::new();
     let [rules, ai, _] = SOURCES.map(|source| manager.register(source, Topics::ALL));
     let later = |label| Outcome {
-        publish: smallvec![Publication { event: event(0), delay_ticks: 10, label: Some(label) }],
+        publish: vec![Publication { event: event(0), delay_ticks: 10, label: Some(label) }],
         ..Outcome::default()
     };
     let cancel = |label| Outcome { cancel: smallvec![label], ..Outcome::default() };

@@ -3,7 +3,7 @@
 /// Aiming and placing: what is held how, and what may not be.
 mod aim;
 /// A game in lockstep with a script at mouse and keyboard.
-mod desk;
+pub mod desk;
 /// Whole turns and games of a person.
 mod play;
 /// Strokes: what the hand does is what the tip does.

@@ -13,6 +13,8 @@ mod event_manager;
 mod geometry;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
+/// Minigolf: another ground, ball and tip.
+mod minigolf;
 /// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.
 mod physics;
 /// The laws that a scene chooses.

@@ -16,3 +16,5 @@ mod paper;
 mod same_bits;
 /// Scenes that several physics tests share.
 pub mod scenes;
+/// Seams, edges and slopes of what carries a ball.
+mod surfaces;

@@ -231,7 +231,7 @@ fn a_foul_says_why_in_a_sentence_until_the_next_stroke() {
     board.hear(&struck());
     let shown = hud(&board, &HumanView::default());
     assert!(!shown.is_foul && shown.message.is_empty());
-    assert_eq!(shown.hint, "Balls are rolling.");
+    assert_eq!(shown.hint, "Balls are rolling. Hold f: faster.");
 }
 
 #[test]
@@ -239,7 +239,7 @@ fn what_the_computer_does_and_who_won_is_told() {
     let mut board = Scoreboard::new(vec!["Ada".into(), "Bo".into()]);
     board.hear(&turn(PlayerId::TWO, &[8], Groups::Open));
     board.hear(&Event::Player(PlayerReport { player: PlayerId::TWO, state: PlayerState::Lazing }));
-    assert_eq!(hud(&board, &HumanView::default()).hint, "Bo thinks.");
+    assert_eq!(hud(&board, &HumanView::default()).hint, "Bo thinks. Hold f: less waiting.");
     let paused = HumanView { mode: HumanMode::Paused, ..HumanView::default() };
     assert_eq!(hud(&board, &paused).banner.unwrap().0, "Paused");
     board.hear(&Event::Verdict(Arc::new(Verdict {

@@ -440,7 +440,18 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "5: player[0].kind = \"champion\": this build knows \"human\", \"paper\", \"recorded\"; \
          write for example kind = \"human\"",
     );
-    after_head("[cue]\nmass_kg = 0.5\n", "5: cue.mass_kg = 0.5: cue has no keys; remove this key");
+    after_head("[camera]\nfov = 0.5\n", "5: camera.fov = 0.5: camera has no keys; remove this key");
+    after_head(
+        "[cue]\nmass_kg = -1\n",
+        "5: cue.mass_kg = -1: expected a number from 0.001 to 100 (kg); write for example mass_kg \
+         = 0.54",
+    );
+    after_head(
+        "[table]\npreset = \"pool-9ft\"\n[cue]\nmass_kg = 0.35\n[balls]\nrack = \
+         \"eight-ball\"\n[rules]\ngame = \"free-play\"\n[[player]]\nkind = \"paper\"\n",
+        "13: player[0].kind = \"paper\": a computer player knows only a pool cue; remove the keys \
+         of [cue], or write kind = \"human\"",
+    );
     after_head("[renderer]\n", "4: renderer: a window needs a camera; write a section [camera]");
     after_head(
         "[camera]\n[renderer]\nwidth = 20\n",
@@ -550,7 +561,8 @@ fn built(text: &str, mesh: &str) -> Result<Vec<f64>, String> {
 fn every_shipped_scene_builds_its_table_and_its_balls() {
     for (name, text) in hapticbillard::shipped::SCENES {
         let count = Scene::parse(name, text).unwrap().ball_count();
-        assert_eq!(built(text, "").map(|balls| balls.len()), Ok(count), "{name}");
+        let mesh = hapticbillard::shipped::mesh(&format!("{name}.obj")).unwrap_or_default();
+        assert_eq!(built(text, mesh).map(|balls| balls.len()), Ok(count), "{name}");
     }
 }
 

@@ -1,10 +1,12 @@
 //! Files are untrusted: whatever stands in them, a parser gives a value or an error of one line.
 
 use super::generator::{cases, generator, seed, spoiled};
+use hapticbillard::ids::BallId;
 use hapticbillard::mesh::{Surface, parse_obj};
-use hapticbillard::physics::SolverKind;
+use hapticbillard::physics::{Simulation, SolverKind};
 use hapticbillard::scene::Scene;
 use hapticbillard::shipped;
+use hapticbillard::table::{Table, TableParameters};
 use hapticbillard::validation::{Catalogue, run};
 use rand::RngExt;
 
@@ -83,6 +85,96 @@ fn spoiled_meshes_give_a_mesh_or_one_line() {
             }
         }
     }
+}
+
+/// A ball above a mesh that a scene names.
+const MESH_SCENE: &str = "[scene]\nname = \"mesh\"\n[physics]\nsolver = \"fixed-step\"\n\
+    step_ms = 4\n[[mesh]]\nfile = \"a.obj\"\n[[ball]]\nid = 1\nposition_m = [0.5, 0.4, 1.1]\n\
+    velocity_m_s = [0.3, 0.2, -1]\n";
+
+#[test]
+fn a_scene_with_a_spoiled_mesh_is_played_or_refused_in_one_line() {
+    let scene = Scene::parse("fuzz.toml", MESH_SCENE).unwrap();
+    let (mut wrong, mut played, mut stopped) = (0, 0, 0);
+    for case in 0..cases(2_000) {
+        let mut random = generator(case);
+        let place = format!("seed {}, case {case}", seed());
+        let text = spoiled(CUBE, &OBJ_WORDS, &mut random);
+        let table = match scene.build_table(&mut |_| Ok(text.clone())) {
+            Ok(table) => table,
+            Err(error) => {
+                wrong += 1;
+                let line = error.to_string();
+                assert!(line.starts_with("fuzz.toml:6: mesh[0].file"), "{place}: {line}");
+                assert!(!line.contains(char::is_control) && line.len() < 2000, "{place}: {line}");
+                continue;
+            }
+        };
+        // Faces without area, and far too large ones, lie in the way of a ball that falls on them.
+        let run = scene.build_balls(&table).map_err(|error| error.to_string()).and_then(|balls| {
+            let simulation = Simulation::from_parts(&table, balls, &scene.physics);
+            let advanced = simulation.and_then(|mut simulation| {
+                simulation.advance(0.2, Default::default(), &mut Vec::new())?;
+                Ok(simulation.sample(BallId(1), 0.2))
+            });
+            advanced.map_err(|error| error.to_string())
+        });
+        match run {
+            Ok(ball) => {
+                played += 1;
+                assert!(ball.is_some_and(|ball| ball.position.is_finite()), "{place}");
+            }
+            Err(line) => {
+                stopped += 1;
+                assert!(!line.contains(char::is_control) && line.len() < 2000, "{place}: {line}");
+            }
+        }
+    }
+    assert!(wrong > 0 && played > wrong / 10, "{wrong} wrong, {played} played, {stopped} stopped");
+}
+
+const TABLE_WORDS: [&str; 9] = [
+    "[corner]\n",
+    "length_m = \"long\"\n",
+    "mouth_m = 0.0\n",
+    "[side]\nradius_m = nan\n",
+    "ball_diameter_m = inf\n",
+    "rail_height_m = -0.036\n",
+    "\"\"\"",
+    "= =\n",
+    "[[[[[[[[[[[[[[[[[[[[[[",
+];
+
+#[test]
+fn spoiled_tables_are_built_or_refused_in_one_line() {
+    let text = shipped::table("pool-9ft").unwrap();
+    let (mut right, mut wrong) = (0, 0);
+    for case in 0..cases(10_000) {
+        let mut random = generator(case);
+        let place = format!("seed {}, case {case}", seed());
+        let parameters = TableParameters::from_toml(&spoiled(text, &TABLE_WORDS, &mut random));
+        // To build the faces takes longer than to read: some are enough for a smoke.
+        let built = parameters.and_then(|parameters| {
+            right += 1;
+            if right % 50 == 1 {
+                return Table::from_parameters("fuzz", parameters).map(Some);
+            }
+            Ok(None)
+        });
+        match built {
+            Ok(Some(table)) => {
+                assert!(table.mesh.vertices.iter().all(|vertex| vertex.is_finite()), "{place}");
+                assert!(!table.mesh.faces.is_empty() && table.pockets.len() == 6, "{place}");
+            }
+            Ok(None) => {}
+            Err(error) => {
+                wrong += 1;
+                let line = error.to_string();
+                assert!(!line.contains(char::is_control) && line.len() < 2000, "{place}: {line:?}");
+            }
+        }
+    }
+    assert!(right > 0 && wrong > 0, "{right} right, {wrong} wrong");
 }
 
 /// What may be inserted into a catalogue.

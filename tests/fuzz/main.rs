@@ -3,10 +3,14 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
-/// Texts that come from outside: scenes and meshes.
+/// Random facts for the referee.
+mod facts;
+/// Texts that come from outside: scenes, meshes, tables, catalogues.
 mod files;
 /// Seeds from the environment, and ways to spoil a text.
 mod generator;
+/// What is piped in: facts, scenarios of rules, strokes.
+mod lines;
 /// Recordings, read and replayed.
 mod recordings;
 /// Sequences of facts, possible and impossible, against the referee.

@@ -3,15 +3,13 @@
 //! `FUZZ_SEED` and `FUZZ_EVENTS` set where the run begins and how long it is; a failure names the
 //! seed of its game. What holds is checked against an account of the game kept here.
 
+use super::facts::{Swarm, made_possible};
 use hapticbillard::events::{
-    BallInHand, Call, Command, Event, Fact, FactKind, Foul, Group, Groups, TouchedBy, TurnAfter,
-    Verdict, Zone,
+    BallInHand, Call, Command, Event, Fact, FactKind, Foul, Group, Groups, TurnAfter, Verdict,
 };
 use hapticbillard::hash::{Digest, StateHash};
-use hapticbillard::ids::{BallId, PlayerId, PocketId, Rail};
-use hapticbillard::rules::{
-    Console, GameKind, Judge, Phase, Referee, Shot, State, judge, legal_first,
-};
+use hapticbillard::ids::{BallId, PlayerId};
+use hapticbillard::rules::{Console, GameKind, Judge, Phase, Referee, Shot, State, judge};
 use hapticbillard::tick::Participant;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -184,121 +182,6 @@ impl Tally {
         self.shuffled += other.shuffled;
         self.events += other.events;
         other.events
-    }
-}
-
-/// How often each kind of fact comes in one game; some never do.
-struct Swarm {
-    weights: [u32; 9],
-    /// Facts come only in an order that a table can bring about.
-    is_possible: bool,
-    /// Chance that a fact happens at the same time as the one before.
-    tie: f64,
-}
-
-impl Swarm {
-    fn new(rng: &mut Pcg64Mcg) -> Self {
-        let mut weights = std::array::from_fn(|_| match rng.random_range(0..3) {
-            0 => 0,
-            1 => 1,
-            _ => rng.random_range(2..12),
-        });
-        // Without strokes and rest there is no game.
-        weights[1] = weights[1].max(2);
-        weights[8] = weights[8].max(2);
-        let is_possible = rng.random_bool(0.5);
-        Swarm { weights, is_possible, tie: [0.0, 0.3, 0.9][rng.random_range(0..3)] }
-    }
-
-    fn kind(&self, rng: &mut Pcg64Mcg, referee: &Referee) -> FactKind {
-        let total = self.weights.iter().sum::<u32>();
-        let mut pick = rng.random_range(0..total);
-        let kind = self.weights.iter().position(|weight| {
-            let hit = pick < *weight;
-            pick = pick.saturating_sub(*weight);
-            hit
-        });
-        let on_table = &referee.state().on_table;
-        // A possible game uses the balls that are there.
-        let ball = match on_table.as_slice() {
-            balls if self.is_possible && !balls.is_empty() => {
-                balls[rng.random_range(0..balls.len())]
-            }
-            _ => BallId(rng.random_range(0..18)),
-        };
-        let cue_or_ball = if rng.random_bool(0.15) { BallId::CUE } else { ball };
-        match kind.unwrap_or(8) {
-            0 => FactKind::BallPlaced {
-                ball: if rng.random_bool(0.9) { BallId::CUE } else { ball },
-                zone: [Zone::Kitchen, Zone::Anywhere, Zone::D][rng.random_range(0..3)],
-                ok: rng.random_bool(0.7),
-            },
-            1 => FactKind::CueBallStruck {
-                ball: if rng.random_bool(0.95) { BallId::CUE } else { ball },
-                push: rng.random_bool(0.1),
-                moving: rng.random_bool(0.1),
-                player: rng.random_bool(0.1).then_some(PlayerId::TWO),
-                position_m: Default::default(),
-                normal_speed_m_s: 0.0,
-            },
-            2 | 3 => FactKind::BallsCollided {
-                a: if rng.random_bool(0.7) { BallId::CUE } else { cue_or_ball },
-                b: ball,
-                in_kitchen: rng.random_bool(0.1),
-                position_m: Default::default(),
-                normal_speed_m_s: 0.0,
-            },
-            4 => FactKind::CushionHit {
-                ball: cue_or_ball,
-                rail: Rail::ALL[rng.random_range(0..4)],
-                onset: rng.random_bool(0.8),
-                position_m: Default::default(),
-                normal_speed_m_s: 0.0,
-            },
-            5 => FactKind::BallPocketed {
-                ball: cue_or_ball,
-                pocket: PocketId::ALL[rng.random_range(0..6)],
-                speed_m_s: 0.0,
-            },
-            6 => FactKind::BallOffTable { ball: cue_or_ball },
-            7 => match rng.random_bool(0.5) {
-                true => FactKind::HeadStringCrossed { ball: cue_or_ball },
-                false => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
-            },
-            _ => FactKind::Settled { snookered: false },
-        }
-    }
-}
-
-/// Nothing happens before the stroke, the tip mostly strikes once, and the cue ball mostly meets a
-/// ball that it may meet.
-fn made_possible(
-    kind: FactKind,
-    is_shooting: bool,
-    rng: &mut Pcg64Mcg,
-    referee: &Referee,
-) -> FactKind {
-    let legal = legal_first(referee.game(), referee.state());
-    match kind {
-        FactKind::BallPlaced { .. } if !is_shooting => kind,
-        _ if !is_shooting => FactKind::CueBallStruck {
-            ball: BallId::CUE,
-            push: false,
-            moving: false,
-            player: None,
-            position_m: Default::default(),
-            normal_speed_m_s: 0.0,
-        },
-        FactKind::CueBallStruck { .. } if !legal.is_empty() && rng.random_bool(0.95) => {
-            FactKind::BallsCollided {
-                a: BallId::CUE,
-                b: legal[rng.random_range(0..legal.len())],
-                in_kitchen: false,
-                position_m: Default::default(),
-                normal_speed_m_s: 0.0,
-            }
-        }
-        _ => kind,
     }
 }
 

@@ -23,7 +23,7 @@ fn with_stdin(arguments: &[&str], stdin: &str) -> Output {
     child.wait_with_output().unwrap()
 }
 
-/// The JSON lines that it printed.
+/// Its lines of JSON.
 pub fn lines(bytes: &[u8]) -> Vec<Value> {
     let text = std::str::from_utf8(bytes).unwrap();
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
@@ -72,7 +72,13 @@ fn every_command_teaches_with_an_example() {
 
 #[test]
 fn a_mistyped_command_line_exits_with_2() {
-    for wrong in [&["banana"][..], &["scenes", "--yaml"], &["match", "--games", "0"]] {
+    for wrong in [
+        &["banana"][..],
+        &["scenes", "--yaml"],
+        &["match", "--games", "0"],
+        &["play", "--speed", "-1"],
+        &["render", "--scene", "one_ball", "--out", "picture.jpg"],
+    ] {
         let output = program(wrong);
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");
         assert!(output.stdout.is_empty(), "{wrong:?}");

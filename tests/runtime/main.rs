@@ -7,8 +7,13 @@
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// Random facts for the referee, as the fuzz tests of the core make them.
+#[path = "../fuzz/facts.rs"]
+mod facts;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// What `--json` prints, and what options change.
+mod json;
 /// Who stands in for whom.
 mod mocks;
 /// What enters from outside: pauses, wrong files.
@@ -16,10 +21,22 @@ mod outside;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;
+/// Recordings of games that were interrupted or killed.
+#[cfg(unix)]
+mod recordings;
 /// Threads and memory, counted from outside.
 mod resources;
+/// Random events against the actor of the referee, through its mailbox.
+mod rule_actor;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// Who dies and what then.
+mod supervision;
+/// The progress bar.
+#[cfg(unix)]
+mod terminal;
 /// A whole game in a window.
 #[cfg(feature = "renderer")]
 mod whole_game;
+/// Wrong input to every command.
+mod wrong_input;

@@ -18,7 +18,8 @@ impl FrameSource for Pausing {
         if self.0 == 6 {
             frame.push(Event::Menu(MenuAction::Resume).into());
         }
-        Inflow { frame, paused: (4..=7).contains(&self.0), quit: tick.0 > 9, next: None }
+        let (paused, quit) = ((4..=7).contains(&self.0), tick.0 > 9);
+        Inflow { frame, paused, quit, ..Inflow::default() }
     }
 }
 

@@ -79,7 +79,8 @@ fn shown(
 ) -> Result<Shown, Error> {
     let mut cast = stage.cast()?;
     let balls = stage.scene.build_balls(&stage.table)?;
-    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)));
+    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_tip(stage.scene.parameters().tip_radius_m);
     let renderer = stage.scene.renderer;
     let stop = stop_at_interrupt();
     let setup = WindowSetup {
@@ -152,6 +153,7 @@ impl FrameSource for Spectator {
             frame: recorded.frame,
             next: own.next,
             paused: own.paused,
+            hurried: own.hurried,
             quit: own.quit || recorded.quit,
         }
     }

@@ -47,10 +47,9 @@ impl EventDriven {
     }
 
     fn move_cue(&mut self, at: Seconds, path: Arc<CuePath>) {
-        let coupling = self.parameters.cue_coupling_rad_s;
         match &mut self.tip {
             Some(tip) => tip.cue.follow(path),
-            None => self.tip = Some(Tip::new(path, coupling)),
+            None => self.tip = Some(Tip::new(path, &self.parameters)),
         }
         self.open_window(at);
     }

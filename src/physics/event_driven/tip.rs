@@ -6,12 +6,12 @@
 use super::EventDriven;
 use super::closing::{self, Relative};
 use super::segment::Segment;
-use crate::cue::{CuePath, CuePose, TIP_RADIUS_M};
+use crate::cue::{CuePath, CuePose};
 use crate::events::{FactKind, TouchedBy};
 use crate::ids::BallId;
 use crate::physics::guided_cue::GuidedCue;
 use crate::physics::laws::cue_ball::{Cue, cue_contact};
-use crate::physics::{PhysicsError, tolerance};
+use crate::physics::{Parameters, PhysicsError, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -48,9 +48,9 @@ pub(super) struct Tip {
 
 impl Tip {
     /// A cue at the start of `path`.
-    pub fn new(path: Arc<CuePath>, coupling_rad_s: f64) -> Self {
+    pub fn new(path: Arc<CuePath>, parameters: &Parameters) -> Self {
         Tip {
-            cue: GuidedCue::new(path, coupling_rad_s),
+            cue: GuidedCue::new(path, parameters),
             stretches: SmallVec::new(),
             until: f64::INFINITY,
             meets: (f64::INFINITY, 0),
@@ -109,7 +109,8 @@ impl Tip {
                 acceleration: ball.acceleration - stretch.acceleration,
             };
             let horizon = (end - start).min(AHEAD_S);
-            closing::spheres(&motion, radius_m + TIP_RADIUS_M, horizon).map(|time| start + time)
+            closing::spheres(&motion, radius_m + self.cue.tip_radius_m, horizon)
+                .map(|time| start + time)
         })
     }
 }

@@ -95,10 +95,8 @@ pub struct Body {
     pub path: Path,
     /// Box around its path and what it may touch.
     pub bounds: Bounds,
-    /// What the step's forces did to its velocity [m/s].
+    /// What the step's forces, and what carries it, did to its velocity [m/s].
     pub kick: DVec3,
-    /// Impulse of the step's smooth forces per mass [m/s].
-    pub force_kick: DVec3,
     /// Rails that it has been away from since it last touched them, a bit each.
     pub clear_rails: u8,
     /// Rails that it is at, a bit each.
@@ -126,7 +124,6 @@ impl Body {
             path: Path::default(),
             bounds: Bounds { min: state.position, max: state.position },
             kick: DVec3::ZERO,
-            force_kick: DVec3::ZERO,
             clear_rails: 0,
             near_rails: 0,
             held_rails: 0,

@@ -50,7 +50,7 @@ impl FixedStep {
     fn move_cue(&mut self, path: Arc<CuePath>) {
         match &mut self.cue {
             Some(cue) => cue.guided.follow(path),
-            None => self.cue = Some(CueMotion::new(path, self.parameters.cue_coupling_rad_s)),
+            None => self.cue = Some(CueMotion::new(path, &self.parameters)),
         }
     }
 

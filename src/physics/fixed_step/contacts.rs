@@ -12,13 +12,22 @@ use crate::physics::laws::cluster::{self, Touch};
 use crate::physics::laws::cue_ball::{Cue, cue_contact};
 use crate::physics::laws::mathavan_2014::Bed;
 use crate::physics::laws::{Impact, Mover, ball_face, cushion};
-use crate::physics::{Contact as Law, MultiContact, tolerance};
+use crate::physics::{Contact as Law, Integrator, MultiContact, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
 
 /// Balls whose path a contact changed.
 pub(super) type Changed = SmallVec<[usize; 16]>;
+
+/// Work of a change of velocity by a force [J], not yet made: m Δv · (v + Δv/2).
+fn kick_j(mover: &Mover, change: DVec3) -> f64 {
+    if mover.inverse_mass > 0.0 {
+        change.dot(mover.velocity + 0.5 * change) / mover.inverse_mass
+    } else {
+        0.0
+    }
+}
 
 impl FixedStep {
     /// Lets a contact happen; returns the balls whose path it changed.
@@ -64,6 +73,19 @@ impl FixedStep {
     fn lasting(&self, a: usize, b: Option<usize>, normal: DVec3, least: f64) -> f64 {
         let kick = self.bodies[a].kick - b.map_or(DVec3::ZERO, |b| self.bodies[b].kick);
         (-1.01 * kick.dot(normal)).max(least)
+    }
+
+    /// The part of the step's kick that is late at `tau` and presses a ball into a surface [m/s].
+    /// The velocity holds the kick of the whole step; thrown back by a contact, what acts after it
+    /// would give energy to every hop, and low hops would never end. Euler-Cromer's velocity is
+    /// that of the middle of the step: positions that it leads to lie on the parabola through them.
+    fn late(&self, index: usize, normal: DVec3, tau: Seconds) -> DVec3 {
+        let pressed = self.bodies[index].kick.dot(normal).min(0.0);
+        let of_velocity = match self.integrator {
+            Integrator::EulerCromer => 0.5,
+            Integrator::Verlet | Integrator::Rk4 => 1.0,
+        };
+        normal * (pressed * (of_velocity - tau / self.h))
     }
 
     /// The law with its restitution for this approach.
@@ -266,8 +288,15 @@ impl FixedStep {
             _ => {}
         }
 
+        // What carries the ball, apart from what it meets.
         let mut mover = self.bodies[index].mover();
-        let approach = -mover.velocity.dot(normal);
+        let position = self.bodies[index].path.at(tau);
+        let apart = |other: DVec3| other.dot(normal) < 1.0 - tolerance::COPLANAR;
+        let mut held = self.bodies[index].holding(position);
+        held.retain(|support| apart(support.normal));
+
+        let late = if held.is_empty() { self.late(index, normal, tau) } else { DVec3::ZERO };
+        let approach = -(mover.velocity - late).dot(normal);
         let least = match surface {
             Surface::Cushion(_) => tolerance::STICKY_M_S,
             _ => tolerance::LANDING_M_S,
@@ -278,12 +307,13 @@ impl FixedStep {
             _ => self.parameters.surface(surface),
         };
         let law = self.law_at(law, approach, lasting, index);
+        // A ball that stays is pressed for the rest of the step too: nothing is late then, and a
+        // contact cannot give back what makes it happen again.
+        let late = if law.restitution > 0.0 { late } else { DVec3::ZERO };
+        self.ledger.integration_j += kick_j(&mover, -late);
+        mover.velocity -= late;
 
-        // Other surfaces at this moment: what carries the ball, and what it meets as well.
-        let position = self.bodies[index].path.at(tau);
-        let apart = |other: DVec3| other.dot(normal) < 1.0 - tolerance::COPLANAR;
-        let mut held = self.bodies[index].holding(position);
-        held.retain(|support| apart(support.normal));
+        // Other surfaces that it meets at this moment.
         let met: SmallVec<[(DVec3, Surface); 2]> = self
             .also_touches(contact)
             .filter(|other| apart(other.normal))
@@ -339,6 +369,9 @@ impl FixedStep {
             _ => self.ledger.face_j += loss_j,
         }
 
+        self.ledger.integration_j += kick_j(&mover, late);
+        mover.velocity += late;
+
         self.work.contacts += 1;
         let point = position - normal * self.bodies[index].ball.radius_m;
         let before = self.bodies[index].velocity;
@@ -357,7 +390,7 @@ impl FixedStep {
         changed
     }
 
-    fn surface_of(&self, partner: Partner) -> Surface {
+    pub(super) fn surface_of(&self, partner: Partner) -> Surface {
         match partner {
             Partner::Plane(number) => self.ground.planes[number].surface,
             Partner::Face(face) => self.ground.faces[face as usize].surface,

@@ -5,7 +5,8 @@
 
 use super::body::{Body, Path};
 use super::spatial_hash::Bounds;
-use crate::cue::{CuePath, TIP_RADIUS_M};
+use crate::cue::CuePath;
+use crate::physics::Parameters;
 use crate::physics::guided_cue::GuidedCue;
 use crate::physics::roots;
 use crate::units::Seconds;
@@ -49,9 +50,9 @@ pub(super) struct CueMotion {
 
 impl CueMotion {
     /// A cue at the start of `path`.
-    pub fn new(path: Arc<CuePath>, coupling_rad_s: f64) -> Self {
+    pub fn new(path: Arc<CuePath>, parameters: &Parameters) -> Self {
         CueMotion {
-            guided: GuidedCue::new(path, coupling_rad_s),
+            guided: GuidedCue::new(path, parameters),
             revision: 0,
             stretches: SmallVec::new(),
             bounds: Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY },
@@ -77,6 +78,7 @@ impl CueMotion {
             }
         }
         cuts.push(h);
+        let tip_radius_m = self.guided.tip_radius_m;
         let mut bounds = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
         for pair in cuts.windows(2) {
             let (from, to) = (pair[0], pair[1]);
@@ -87,8 +89,8 @@ impl CueMotion {
             let stretch = Stretch { start: from, end: to, position, velocity, acceleration };
             // Both ends and the control point of the parabola hold all of it.
             let control = stretch.position + stretch.velocity * (0.5 * span);
-            let bend = Bounds::swept(stretch.position, control, TIP_RADIUS_M);
-            let whole = Bounds::swept(stretch.position, stretch.at(to).0, TIP_RADIUS_M);
+            let bend = Bounds::swept(stretch.position, control, tip_radius_m);
+            let whole = Bounds::swept(stretch.position, stretch.at(to).0, tip_radius_m);
             bounds = bounds.join(&bend).join(&whole);
             self.stretches.push(stretch);
         }
@@ -113,7 +115,7 @@ impl CueMotion {
                 ball.at(from) - tip,
                 ball.velocity - velocity,
                 -stretch.acceleration,
-                radius_m + TIP_RADIUS_M,
+                radius_m + self.guided.tip_radius_m,
                 end - from,
             )
             .map(|time| from + time)

@@ -146,22 +146,33 @@ impl FixedStep {
             let bounds = if self.rejects { near } else { Bounds::EVERYTHING };
             ground.faces_near(&bounds, &mut self.scratch.seen_faces, &mut faces);
             // The patches that carried the ball before come first: once its foot is found inside
-            // one face of a flat patch, the others of that patch are farther away.
+            // one face of a flat patch, the others of that patch are farther away. Their edges are
+            // no surface: across a seam they would lean towards the ball and throw it up.
             let patch = |face: &u32| u64::from(ground.faces[*face as usize].patch);
             faces.sort_by_key(|face| (!last.contains(&patch(face)), *face));
             let mut done: SmallVec<[u64; 4]> = SmallVec::new();
+            let mut edges: SmallVec<[(narrow::Near, u32); 8]> = SmallVec::new();
             for face in &faces {
                 if done.contains(&patch(face)) {
                     continue;
                 }
                 self.work.face_tests += 1;
                 let triangle = &ground.faces[*face as usize];
-                if let Some(near) = narrow::nearest(triangle, position, reach) {
-                    meet(near.normal, near.distance_m, triangle.surface, patch(face));
-                    if near.inside {
+                match narrow::nearest(triangle, position, reach) {
+                    Some(near) if near.inside => {
+                        meet(near.normal, near.distance_m, triangle.surface, patch(face));
                         done.push(patch(face));
                     }
+                    Some(near) => edges.push((near, *face)),
+                    None => {}
                 }
+            }
+            // An edge counts as the surface of highest rank at it.
+            let surface = |face: u32| ground.faces[face as usize].surface;
+            edges.retain(|(_, face)| !done.contains(&patch(face)));
+            edges.sort_by_key(|(_, face)| core::cmp::Reverse(surface(*face).rank()));
+            for (near, face) in &edges {
+                meet(near.normal, near.distance_m, surface(*face), patch(face));
             }
         }
         self.scratch.faces = faces;

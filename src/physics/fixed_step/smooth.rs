@@ -86,23 +86,32 @@ impl FixedStep {
         for support in &carriers {
             path_velocity -= support.normal * path_velocity.dot(support.normal).min(0.0);
         }
+        // It would have fallen there within the step.
+        let mut position = body.position;
+        for support in &carriers {
+            if support.gap_m > tolerance::PUSH_OUT_M && force_kick.dot(support.normal) < 0.0 {
+                position -= support.normal * support.gap_m;
+            }
+        }
 
         let body = &mut self.bodies[index];
         body.kick = mover.velocity - before.velocity;
-        body.force_kick = force_kick;
         body.take(&mover);
-        body.path = Path { position: body.position, velocity: path_velocity, ..Path::default() };
+        body.path = Path { position, velocity: path_velocity, ..Path::default() };
     }
 
-    /// The surfaces that carry a ball in this step: it touches them, and all that presses it into
-    /// them is this step's force. A ball that comes faster is an impact.
+    /// The surfaces that carry a ball in this step: it touches them, or will within the step, and
+    /// all that presses it into them is this step's force. A ball that comes faster is an impact;
+    /// one that comes more slowly is in flight.
     fn carriers(&self, body: &Body, velocity: DVec3, kick: DVec3) -> SmallVec<[Support; 2]> {
         body.supports
             .iter()
             .filter(|support| {
                 let approach = -velocity.dot(support.normal);
                 let pressed = (-kick.dot(support.normal)).max(0.0);
-                0.0 <= approach && approach <= (1.01 * pressed).max(tolerance::LANDING_M_S)
+                let near = support.gap_m <= (approach * self.h).max(tolerance::PUSH_OUT_M);
+                let slow = approach <= (1.01 * pressed).max(tolerance::LANDING_M_S);
+                0.0 <= approach && near && slow
             })
             .copied()
             .collect()

@@ -4,7 +4,8 @@
 //! concerns are moved there, the contact law acts, and they move on from there with their new
 //! velocities: the exact re-timing of straight motion. So a fast ball does not tunnel, and one step
 //! may hold several contacts. What is left of the step's error is that forces bend paths, and that
-//! their kick counts for the whole step wherever in it the contact lies.
+//! their kick counts for the whole step wherever in it the contact lies; only for a ball that lands
+//! is it told apart, or low hops would never end.
 
 use super::FixedStep;
 use super::body::{Path, Support};
@@ -53,6 +54,9 @@ impl Contact {
 
 /// Contacts that close more slowly are left to the next step.
 const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
+
+/// Contacts of a ball that differ by less, which is rounding, are at the same moment [s].
+const SAME_MOMENT_S: Seconds = 1e-12;
 
 impl FixedStep {
     /// All contacts of the step that begins at `start`.
@@ -115,9 +119,33 @@ impl FixedStep {
         let mut queue = std::mem::take(&mut self.scratch.queue);
         queue.retain(|contact| contact.revisions == self.revisions(contact.ball, contact.partner));
         let first = (0..queue.len()).min_by(|a, b| queue[*a].order(&queue[*b]));
-        let first = first.map(|place| queue.swap_remove(place));
+        let first = first.map(|place| queue.swap_remove(self.of_highest_rank(&queue, place)));
         self.scratch.queue = queue;
         first
+    }
+
+    /// An edge belongs to the faces on both its sides, and rounding decides which of them a ball
+    /// meets first. The surface of higher rank counts, or a mirrored shot would meet another one.
+    fn of_highest_rank(&self, queue: &[Contact], first: usize) -> usize {
+        let contact = &queue[first];
+        let rank = |place: &usize| self.surface_of(queue[*place].partner).rank();
+        let same = |place: &usize| {
+            let other = &queue[*place];
+            other.ball == contact.ball
+                && matches!(other.partner, Partner::Plane(_) | Partner::Face(_))
+                && (other.tau - contact.tau).abs() <= SAME_MOMENT_S
+                && other.normal.dot(contact.normal) > 1.0 - tolerance::COPLANAR
+                && rank(place) > rank(&first)
+        };
+        match contact.partner {
+            Partner::Tip | Partner::Ball(_) => first,
+            Partner::Plane(_) | Partner::Face(_) => {
+                let order = |a: &usize, b: &usize| {
+                    rank(b).cmp(&rank(a)).then_with(|| queue[*a].order(&queue[*b]))
+                };
+                (0..queue.len()).filter(same).min_by(order).unwrap_or(first)
+            }
+        }
     }
 
     /// Further contacts of a ball with fixed surfaces at the same moment.
@@ -127,7 +155,7 @@ impl FixedStep {
         self.scratch.queue.iter().filter(move |other| {
             other.ball == ball
                 && matches!(other.partner, Partner::Plane(_) | Partner::Face(_))
-                && (other.tau - at).abs() <= 1e-12
+                && (other.tau - at).abs() <= SAME_MOMENT_S
                 && other.revisions == self.revisions(other.ball, other.partner)
         })
     }

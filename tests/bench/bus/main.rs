@@ -1,66 +1,31 @@
 //! Events per second through the tick of the event manager, beside other ways to send the same
-//! events to seven subscribers.
+//! events to seven subscribers. `README.md` holds the figures and how to read them.
 //!
 //! `cargo run --release --manifest-path tests/bench/bus/Cargo.toml [-- EVENTS [ROUNDS]]`
-//!
-//! With `--features pubsub` kameo's own PubSub runs too; its package switches kameo's tracing on,
-//! so that the event manager is slower than in the game.
 //!
 //! Every variant sends the same `Stamped` values, 16 a tick; every subscriber checks that they
 //! arrive complete and in stamp order. Rounds are interleaved, the median counts, and only ratios
 //! within one run mean anything.
 
-use hapticbillard::events::{Event, Fact, FactKind, Source, Stamp, Stamped, Topics};
+mod common;
+
+use common::{Check, PER_TICK, SUBSCRIBERS, fact, on_runtime, stamped};
+use hapticbillard::event_manager::EventManager as Core;
+use hapticbillard::events::{Event, Fact, Source, Stamp, Stamped, Topics};
 use hapticbillard::hash::Digest;
-use hapticbillard::ids::BallId;
 use hapticbillard::physics::Snapshot;
-use hapticbillard::tick::{Frame, Outcome};
+use hapticbillard::tick::{Delivered, Frame, Outcome};
 use hapticbillard::units::Tick;
-use hapticbillard_actors::event_manager::{EventManager, Seal};
+use hapticbillard_actors::event_manager::{EventManager, Seal, Sink};
 use hapticbillard_actors::participant::{Answer, Mail, Seat, door};
 use kameo::mailbox;
 use kameo::prelude::*;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use tokio::sync::{broadcast, mpsc};
-
-const SUBSCRIBERS: usize = 7;
-const PER_TICK: u64 = 16;
-
-fn fact(number: u64) -> Fact {
-    let ball = BallId((number % 16) as u16);
-    Fact { time_s: number as f64 * 1e-4, kind: FactKind::HeadStringCrossed { ball } }
-}
-
-fn stamped(number: u64) -> Stamped {
-    let tick = Tick(number / PER_TICK + 1);
-    let stamp = Stamp { tick, source: Source::Physics, sequence: number };
-    Stamped { stamp, event: Event::Fact(fact(number)) }
-}
-
-/// Counts what arrives and insists on its order.
-#[derive(Default)]
-struct Check {
-    seen: u64,
-    last: Option<Stamp>,
-}
-
-impl Check {
-    fn take(&mut self, stamped: &Stamped) {
-        assert!(self.last < Some(stamped.stamp), "out of order");
-        self.last = Some(stamped.stamp);
-        self.seen += 1;
-    }
-}
-
-/// Runs `job` on a runtime as the game has it: one worker, and nothing on the caller's thread.
-fn on_runtime<F>(job: F) -> Duration
-where
-    F: Future<Output = Duration> + Send + 'static,
-{
-    let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).build().unwrap();
-    runtime.block_on(async { tokio::spawn(job).await.unwrap() })
-}
 
 // --- the event manager -------------------------------------------------------------------------
 
@@ -76,7 +41,8 @@ impl Message<Mail> for Listener {
     }
 }
 
-fn event_manager(events: u64) -> Duration {
+/// As in a game: rules, players, observers. All answer before the next tick.
+fn participants(events: u64) -> Duration {
     on_runtime(async move {
         let first = Answer { outcome: Outcome::default(), digest: Digest(0) };
         let seats = (0..SUBSCRIBERS).map(|_| Seat {
@@ -85,21 +51,80 @@ fn event_manager(events: u64) -> Duration {
             first: first.clone(),
             ask: door(Listener::spawn(Listener(Check::default()))),
         });
-        let core = EventManager::new(seats.collect(), Vec::new()).unwrap();
-        let manager = EventManager::spawn_with_mailbox(core, mailbox::bounded(2));
-        let table = Arc::new(Snapshot::default());
-        let start = Instant::now();
-        let mut last = None;
-        for tick in 0..events / PER_TICK {
-            let facts = (tick * PER_TICK..(tick + 1) * PER_TICK).map(fact).collect();
-            let frame = Frame::new();
-            let seal = Seal { tick: Tick(tick + 1), frame, facts, table: table.clone() };
-            last = Some(manager.ask(seal).await.unwrap().0.unwrap());
-        }
-        let elapsed = start.elapsed();
-        assert!(last.unwrap().digests.iter().all(|(_, seen)| seen.0 == events));
+        let manager = EventManager::new(seats.collect(), Vec::new()).unwrap();
+        let (elapsed, digests) = all_ticks(manager, events).await;
+        assert!(digests.len() == SUBSCRIBERS && digests.iter().all(|seen| *seen == events));
         elapsed
     })
+}
+
+/// The event manager's other subscribers, such as a window: nobody answers.
+fn sinks(events: u64) -> Duration {
+    on_runtime(async move {
+        let dropped = Arc::new(AtomicU64::new(0));
+        let (mut sinks, mut tasks) = (Vec::new(), Vec::new());
+        for _ in 0..SUBSCRIBERS {
+            // Large enough to lose nothing: a sink that lags loses its own mail.
+            let (mail, inbox) = flume::bounded::<Delivered>((events / PER_TICK) as usize);
+            sinks.push(Sink { topics: Topics::ALL, mail, dropped: dropped.clone() });
+            tasks.push(tokio::spawn(async move {
+                let mut check = Check::default();
+                while let Ok(mail) = inbox.recv_async().await {
+                    mail.events.iter().for_each(|stamped| check.take(stamped));
+                }
+                check.seen
+            }));
+        }
+        let manager = EventManager::new(Vec::new(), sinks).unwrap();
+        let start = Instant::now();
+        all_ticks(manager, events).await;
+        for task in tasks {
+            assert_eq!(task.await.unwrap(), events);
+        }
+        assert_eq!(dropped.load(Ordering::Relaxed), 0);
+        start.elapsed()
+    })
+}
+
+/// Asks the event manager for one tick after another, as the conductor does. Returns how long that
+/// took and what the participants saw.
+async fn all_ticks(manager: EventManager, events: u64) -> (Duration, Vec<u64>) {
+    let manager = EventManager::spawn_with_mailbox(manager, mailbox::bounded(2));
+    let table = Arc::new(Snapshot::default());
+    let start = Instant::now();
+    let mut last = None;
+    for tick in 0..events / PER_TICK {
+        let facts = (tick * PER_TICK..(tick + 1) * PER_TICK).map(fact).collect();
+        let frame = Frame::new();
+        let (health, table) = (Vec::new(), table.clone());
+        let seal = Seal { tick: Tick(tick + 1), frame, facts, health, table };
+        last = Some(manager.ask(seal).await.unwrap().0.unwrap());
+    }
+    let elapsed = start.elapsed();
+    (elapsed, last.unwrap().digests.iter().map(|(_, seen)| seen.0).collect())
+}
+
+/// The same core without a message: what the lockstep driver does.
+fn direct_calls(events: u64) -> Duration {
+    let mut core = Core::new();
+    let mut checks: Vec<Check> = (0..SUBSCRIBERS).map(|_| Check::default()).collect();
+    for _ in 0..SUBSCRIBERS {
+        core.register(Source::Rules, Topics::ALL);
+    }
+    let start = Instant::now();
+    for number in 0..events / PER_TICK {
+        let tick = Tick(number + 1);
+        let facts = (number * PER_TICK..(number + 1) * PER_TICK).map(fact);
+        core.publish_now(Source::Physics, tick, facts.map(Event::Fact)).unwrap();
+        for delivery in core.seal(tick) {
+            let check = &mut checks[delivery.to.0];
+            delivery.events.iter().for_each(|stamped| check.take(stamped));
+            core.answer(delivery.to, tick, Outcome::default(), Digest(check.seen)).unwrap();
+        }
+        assert_eq!(core.sealed().next_due, None);
+    }
+    assert!(checks.iter().all(|check| check.seen == events));
+    start.elapsed()
 }
 
 // --- a hand-written fan-out of batches ---------------------------------------------------------
@@ -263,58 +288,56 @@ fn tokio_broadcast(events: u64) -> Duration {
     })
 }
 
-/// Kameo's own publisher, in a graph in which kameo traces.
-#[cfg(feature = "pubsub")]
-mod pubsub {
-    use super::{Check, SUBSCRIBERS, on_runtime, stamped};
-    use hapticbillard::events::Stamped;
-    use kameo::prelude::*;
-    use kameo_actors::DeliveryStrategy;
-    use kameo_actors::pubsub::{PubSub, Publish, Subscribe};
-    use std::time::{Duration, Instant};
-
-    #[derive(Actor)]
-    struct Hearer(Check);
-
-    impl Message<Stamped> for Hearer {
-        type Reply = ();
-
-        async fn handle(&mut self, stamped: Stamped, _: &mut Context<Self, ()>) {
-            self.0.take(&stamped);
-        }
-    }
-
-    struct Seen;
-
-    impl Message<Seen> for Hearer {
-        type Reply = u64;
-
-        async fn handle(&mut self, _: Seen, _: &mut Context<Self, u64>) -> u64 {
-            self.0.seen
-        }
-    }
-
-    pub fn kameo_pubsub(events: u64) -> Duration {
-        on_runtime(async move {
-            let pubsub = PubSub::<Stamped>::spawn(PubSub::new(DeliveryStrategy::Guaranteed));
-            let hearers: Vec<_> =
-                (0..SUBSCRIBERS).map(|_| Hearer::spawn(Hearer(Check::default()))).collect();
-            for hearer in &hearers {
-                pubsub.ask(Subscribe(hearer.clone())).await.unwrap();
-            }
-            let start = Instant::now();
-            for number in 0..events {
-                pubsub.tell(Publish(stamped(number))).await.unwrap();
-            }
-            pubsub.stop_gracefully().await.unwrap();
-            pubsub.wait_for_shutdown().await;
-            for hearer in hearers {
-                assert_eq!(hearer.ask(Seen).await.unwrap(), events);
-            }
-            start.elapsed()
-        })
-    }
+/// Kameo's own publisher. Its package switches kameo's tracing on for everybody in its graph, which
+/// would slow the event manager, so it is a program of its own, and built apart.
+fn kameo_pubsub(events: u64) -> Duration {
+    let output = Command::new(pubsub_folder().1).arg(events.to_string()).output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    Duration::from_secs_f64(String::from_utf8(output.stdout).unwrap().trim().parse().unwrap())
 }
+
+/// Where its sources are, and the program once it is built.
+fn pubsub_folder() -> (PathBuf, PathBuf) {
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("pubsub");
+    let program = sources.join("target/release/pubsub-bench");
+    (sources, program.with_extension(std::env::consts::EXE_EXTENSION))
+}
+
+fn build_pubsub() {
+    let (sources, _) = pubsub_folder();
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let built = Command::new(cargo)
+        .args(["build", "--release", "--locked", "--manifest-path"])
+        .arg(sources.join("Cargo.toml"))
+        .arg("--target-dir")
+        .arg(sources.join("target"))
+        .status();
+    assert!(built.is_ok_and(|status| status.success()), "kameo's PubSub could not be built");
+}
+
+/// What a variant is held against: the fan-out that does the same job by hand.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Every subscriber answers before the next tick.
+    Answered,
+    /// Nobody answers; ticks overlap.
+    Unanswered,
+}
+
+type Variant = (&'static str, Kind, fn(u64) -> Duration);
+
+const VARIANTS: [Variant; 8] = [
+    ("event manager, 7 participants", Kind::Answered, participants),
+    ("**batched tokio mpsc by hand**", Kind::Answered, answered_mpsc),
+    ("event manager, 7 sinks", Kind::Unanswered, sinks),
+    ("**batched tokio mpsc by hand**", Kind::Unanswered, batched_mpsc),
+    ("raw flume fan-out, a message an event", Kind::Unanswered, flume_fan_out),
+    ("tokio broadcast, a message an event", Kind::Unanswered, tokio_broadcast),
+    ("kameo's PubSub, guaranteed, a message an event", Kind::Unanswered, kameo_pubsub),
+    ("the event manager's core, called directly", Kind::Answered, direct_calls),
+];
+/// Places of the two fan-outs by hand.
+const BY_HAND: [usize; 2] = [1, 3];
 
 fn main() {
     let mut arguments = std::env::args().skip(1).map(|text| {
@@ -323,39 +346,33 @@ fn main() {
             std::process::exit(2)
         })
     });
-    let events = arguments.next().unwrap_or(1_000_000) / PER_TICK * PER_TICK;
+    let events = arguments.next().unwrap_or(1_000_000).max(PER_TICK) / PER_TICK * PER_TICK;
     let rounds = arguments.next().unwrap_or(5).max(1);
-    type Variant = (&'static str, fn(u64) -> Duration);
-    let variants: Vec<Variant> = vec![
-        ("event manager (kameo, one batch a tick, answered)", event_manager),
-        ("hand-written batched tokio mpsc, answered", answered_mpsc),
-        ("hand-written batched tokio mpsc, nobody answers", batched_mpsc),
-        ("flume fan-out, an event a message", flume_fan_out),
-        ("tokio broadcast, an event a message", tokio_broadcast),
-        #[cfg(feature = "pubsub")]
-        ("kameo PubSub (guaranteed), an event a message", pubsub::kameo_pubsub),
-    ];
-    let mut rates = vec![Vec::new(); variants.len()];
-    for round in 0..rounds {
-        for (rates, (name, run)) in rates.iter_mut().zip(&variants) {
+    build_pubsub();
+    let mut rates = vec![Vec::new(); VARIANTS.len()];
+    for round in 1..=rounds {
+        for (rates, (name, _, run)) in rates.iter_mut().zip(&VARIANTS) {
             let rate = events as f64 / run(events).as_secs_f64();
-            eprintln!("round {} of {rounds}: {name}: {rate:.0} events/s", round + 1);
+            eprintln!("round {round} of {rounds}: {name}: {rate:.0} events/s");
             rates.push(rate);
         }
     }
-    let median = |rates: &mut Vec<f64>| {
-        rates.sort_by(f64::total_cmp);
-        rates[rates.len() / 2]
-    };
-    let medians: Vec<f64> = rates.iter_mut().map(median).collect();
-    println!("{events} events of {} bytes, {PER_TICK} a tick, {SUBSCRIBERS} subscribers,", size());
-    println!("median of {rounds} interleaved rounds:\n");
-    println!("| variant | events/s | over answered mpsc | over unanswered |\n|---|---|---|---|");
-    for ((name, _), rate) in variants.iter().zip(&medians) {
-        println!("| {name} | {rate:.0} | {:.2} | {:.2} |", rate / medians[1], rate / medians[2]);
+    rates.iter_mut().for_each(|rates| rates.sort_by(f64::total_cmp));
+    let medians: Vec<f64> = rates.iter().map(|rates| rates[rates.len() / 2]).collect();
+    println!(
+        "{events} events of {} bytes, {PER_TICK} a tick, {SUBSCRIBERS} subscribers; \
+         median, least and most of {rounds} interleaved rounds.\n",
+        size_of::<Stamped>()
+    );
+    println!("| variant | tick ends when | million events/s | × answered | × unanswered |");
+    println!("|---|---|---|---|---|");
+    for (((name, kind, _), median), rates) in VARIANTS.iter().zip(&medians).zip(&rates) {
+        let end = if *kind == Kind::Answered { "all have answered" } else { "all was sent" };
+        let [answered, unanswered] = BY_HAND.map(|place| median / medians[place]);
+        let (least, most) = (rates[0] / 1e6, rates[rates.len() - 1] / 1e6);
+        println!(
+            "| {name} | {end} | {:.2} ({least:.2}–{most:.2}) | {answered:.2} | {unanswered:.2} |",
+            median / 1e6
+        );
     }
-}
-
-fn size() -> usize {
-    size_of::<Stamped>()
 }

@@ -100,7 +100,10 @@ pub struct Desk {
 impl Desk {
     /// Before the first tick of `scene`.
     pub fn new(scene: &Scene) -> Self {
-        let table = Arc::new(scene.build_table(&mut |_| unreachable!()).unwrap());
+        let mut load = |file: &str| {
+            hapticbillard::shipped::mesh(file).map(String::from).ok_or("no such mesh".to_string())
+        };
+        let table = Arc::new(scene.build_table(&mut load).unwrap());
         Desk::at(scene, table, Pace::EveryTick)
     }
 

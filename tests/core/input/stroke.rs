@@ -117,6 +117,50 @@ fn letting_go_losing_the_keyboard_and_pausing_end_a_stroke_without_a_hit() {
 }
 
 #[test]
+fn a_hand_that_lets_go_beyond_the_ball_has_struck_it() {
+    // A window that draws slowly hands the push and the letting go on in one burst.
+    let mut desk = at_the_ball();
+    desk.button(Button::Left, true);
+    desk.sweep(-1.0, 200, 125);
+    desk.wait(100);
+    desk.tick(&[
+        RawInput::Moved { right: 0.0, up: 0.3 / STROKE_M_PER_HEIGHT },
+        RawInput::Button { button: Button::Left, down: false },
+    ]);
+    assert_eq!(desk.mode(), HumanMode::Stroking);
+    desk.wait(200);
+    assert_eq!(desk.tips(), 1);
+
+    // One that lets go just before the ball has not, however fast it was.
+    let mut desk = at_the_ball();
+    desk.button(Button::Left, true);
+    desk.sweep(-1.0, 200, 125);
+    desk.wait(100);
+    desk.tick(&[
+        RawInput::Moved { right: 0.0, up: 0.225 / STROKE_M_PER_HEIGHT },
+        RawInput::Button { button: Button::Left, down: false },
+    ]);
+    desk.wait(200);
+    assert_eq!((desk.tips(), desk.mode()), (0, HumanMode::Aiming));
+}
+
+#[test]
+fn time_is_hurried_only_for_somebody_who_waits() {
+    let mut desk = at_the_ball();
+    let f = |down| RawInput::Key { key: Key::Letter('f'), down };
+    desk.tick(&[f(true)]);
+    assert!(!desk.last().hurried, "aiming");
+    desk.stroke(0.3, 2.0, 125);
+    desk.wait(2);
+    assert!(desk.last().hurried, "balls roll");
+    desk.tick(&[RawInput::Key { key: Key::Escape, down: true }]);
+    assert!(desk.last().paused && !desk.last().hurried);
+    desk.tick(&[RawInput::Key { key: Key::Escape, down: true }, f(false)]);
+    desk.wait(2);
+    assert!(!desk.last().hurried, "let go");
+}
+
+#[test]
 fn the_interface_never_hits_twice() {
     let mut random = Pcg64Mcg::seed_from_u64(5);
     let table = Arc::new(Table::preset("pool-9ft").unwrap());

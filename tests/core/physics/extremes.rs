@@ -18,6 +18,50 @@ fn sound(simulation: &Simulation, what: &str) {
 }
 
 #[test]
+fn a_dropped_ball_comes_to_rest_for_every_restitution_and_step() {
+    for restitution in [0.0, 0.3, 0.5, 0.8, 0.9] {
+        for step_ms in [0.5, 1.0, 4.0, 10.0] {
+            for integrator in INTEGRATORS {
+                let start = ball(0, DVec3::new(0.0, 0.0, 0.3), DVec3::X * 0.2, DVec3::ZERO);
+                let settings = PhysicsSettings { integrator, ..step(step_ms) };
+                let mut world = with(&Table::plane(), &[start], &settings, |p| {
+                    p.cloth.restitution = restitution;
+                });
+                run(&mut world, 15.0);
+                sound(&world, "drop");
+                let (end, what) = (state(&world, 0), (restitution, step_ms, integrator));
+                assert!(world.is_still(), "{what:?}: {end:?}");
+                assert!((end.position.z - R).abs() <= 1e-9, "{what:?}: {end:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn hops_take_the_time_and_the_height_that_restitution_leaves() {
+    // Fall h, then hops of e² h, e⁴ h …; the n-th impact at √(2h/g) (1 + 2e + … + 2eⁿ).
+    let (height, restitution) = (0.3 - R, 0.8_f64);
+    let fall = (2.0 * height / 9.81).sqrt();
+    for (step_ms, tolerance) in [(1.0, 1e-3), (4.0, 1e-2)] {
+        for integrator in INTEGRATORS {
+            let start = ball(0, DVec3::Z * 0.3, DVec3::ZERO, DVec3::ZERO);
+            let settings = PhysicsSettings { integrator, ..step(step_ms) };
+            let mut world = with(&Table::plane(), &[start], &settings, |p| {
+                p.cloth.restitution = restitution;
+            });
+            let (mut impact, mut hop) = (fall, 1.0);
+            for _ in 0..6 {
+                hop *= restitution;
+                run(&mut world, impact + hop * fall);
+                let top = (state(&world, 0).position.z - R) / (hop * hop * height);
+                assert!((top - 1.0).abs() < tolerance, "{step_ms} {integrator:?} {hop}: {top}");
+                impact += 2.0 * hop * fall;
+            }
+        }
+    }
+}
+
+#[test]
 fn a_small_ball_does_not_pass_through_faces() {
     for speed in [5.0, 10.0, 20.0] {
         for radius_m in [0.001, 0.005] {

@@ -3,7 +3,8 @@
 use super::scenes::*;
 use glam::{DVec2, DVec3};
 use hapticbillard::ball::{BallState, Motion};
-use hapticbillard::physics::Parameters;
+use hapticbillard::ids::BallId;
+use hapticbillard::physics::{Parameters, PhysicsSettings, Strike};
 use hapticbillard::table::Table;
 
 fn degrees(direction: DVec2) -> f64 {
@@ -40,7 +41,7 @@ fn cut_shot(
     world.advance(5.0, collides, &mut facts).unwrap();
     let at = facts.last().unwrap().time_s;
     // The step that holds the contact is computed: this is right after it.
-    [0, 1].map(|id| world.sample(hapticbillard::ids::BallId(id), at + 1e-9).unwrap())
+    [0, 1].map(|id| world.sample(BallId(id), at + 1e-9).unwrap())
 }
 
 #[test]
@@ -156,6 +157,30 @@ fn a_flight_lands_where_the_parabola_does() {
     assert!((landed.position.z - R).abs() < 1e-6, "{}", landed.position.z - R);
     let way = landed.position.truncate() - velocity.truncate() * (flight + 0.005);
     assert!(way.length() < 0.02 * flight * velocity.truncate().length(), "{way}");
+}
+
+#[test]
+fn a_steep_stroke_jumps_and_a_level_one_stays_on_the_bed() {
+    let highest = |elevation_deg: f64, settings: &PhysicsSettings| {
+        let start = on_bed(0, 0.0, 0.0, DVec3::ZERO, DVec3::ZERO);
+        let strike = Strike { speed_m_s: 4.0, elevation_deg, ..Strike::CENTRE };
+        let shot = world(&Table::plane(), &[start], settings)
+            .strike(strike)
+            .unwrap()
+            .run_until_rest()
+            .unwrap();
+        let heights = shot.trajectory(BallId::CUE).every(0.002);
+        heights.map(|state| state.position.z - R).fold(0.0, f64::max)
+    };
+    let game = step(4.0);
+    assert!(highest(0.0, &game) < 1e-6, "{}", highest(0.0, &game));
+    let jump = highest(45.0, &game);
+    assert!(R < jump && jump < 0.5, "{jump}");
+    // The height goes with the square of the speed: 1 % of speed is 2 % of height.
+    for elevation_deg in [20.0, 30.0, 45.0, 60.0] {
+        let (jump, expected) = (highest(elevation_deg, &game), highest(elevation_deg, &exact()));
+        assert!((jump / expected - 1.0).abs() < 0.02, "{elevation_deg}: {jump} {expected}");
+    }
 }
 
 #[test]

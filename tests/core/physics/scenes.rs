@@ -4,12 +4,13 @@ use glam::{DQuat, DVec3};
 use hapticbillard::ball::{Ball, BallPlace, BallState, Motion};
 use hapticbillard::events::{Fact, FactSet};
 use hapticbillard::hash::{Digest, StateHash};
-use hapticbillard::ids::BallId;
+use hapticbillard::ids::{BallId, Rail};
+use hapticbillard::mesh::Surface;
 use hapticbillard::physics::fixed_step::FixedStep;
 use hapticbillard::physics::{
-    Parameters, PhysicsSettings, Profile, Simulation, Solver, SolverKind,
+    Integrator, Parameters, PhysicsSettings, Profile, Simulation, Solver, SolverKind,
 };
-use hapticbillard::table::Table;
+use hapticbillard::table::{Plane, Table};
 use std::sync::OnceLock;
 
 pub const R: f64 = 0.028575;
@@ -114,6 +115,36 @@ pub fn pool() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| Table::preset("pool-9ft").unwrap())
 }
+
+/// A bed with four noses and no pockets: planes alone, so that all shots stay on it.
+pub fn between_noses() -> Table {
+    // A nose at 0.635 of a ball's diameter leans over by asin(0.27).
+    let sine = 2.0 * 0.635 - 1.0;
+    let cosine = (1.0_f64 - sine * sine).sqrt();
+    let mut table = Table::plane();
+    for (towards, far, rail) in [
+        (DVec3::X, 1.27, Rail::Foot),
+        (DVec3::NEG_X, 1.27, Rail::Head),
+        (DVec3::Y, 0.635, Rail::Left),
+        (DVec3::NEG_Y, 0.635, Rail::Right),
+    ] {
+        table.planes.push(Plane {
+            point: towards * far + DVec3::Z * (R * (1.0 + sine)),
+            normal: -towards * cosine - DVec3::Z * sine,
+            surface: Surface::Cushion(rail),
+        });
+    }
+    table
+}
+
+/// Settings of the exact solver: a reference that shares no step and no search of contacts.
+pub fn exact() -> PhysicsSettings {
+    PhysicsSettings { solver: SolverKind::EventDriven, ..PhysicsSettings::default() }
+}
+
+/// All ways to integrate a step.
+pub const INTEGRATORS: [Integrator; 3] =
+    [Integrator::EulerCromer, Integrator::Verlet, Integrator::Rk4];
 
 /// Settings of the 2009 profile.
 pub fn of_2009() -> PhysicsSettings {

@@ -7,19 +7,6 @@ use glam::DVec3;
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
 
-/// Which of the surfaces around an edge or corner it counts as.
-fn rank(surface: Surface) -> u8 {
-    match surface {
-        Surface::Cushion(_) => 6,
-        Surface::Pocket(_) => 5,
-        Surface::Wood => 4,
-        Surface::Obstacle => 3,
-        Surface::Cloth => 2,
-        Surface::PocketBottom(_) => 1,
-        Surface::Floor => 0,
-    }
-}
-
 /// A face with an area.
 struct Flat {
     corners: [u32; 3],
@@ -196,7 +183,7 @@ fn find_edges(
             continue;
         }
         let surfaces = faces.iter().map(|face| flats[*face as usize].surface);
-        let surface = surfaces.max_by_key(|s| rank(*s)).unwrap_or(Surface::Obstacle);
+        let surface = surfaces.max_by_key(|s| s.rank()).unwrap_or(Surface::Obstacle);
         if !flat {
             for (end, away) in [(*a, along), (*b, -along)] {
                 let corner = ends.entry(end).or_insert_with(|| Corner {
@@ -211,7 +198,7 @@ fn find_edges(
                     }
                 }
                 corner.away.push(away);
-                if rank(corner.surface) < rank(surface) {
+                if corner.surface.rank() < surface.rank() {
                     corner.surface = surface;
                 }
             }
