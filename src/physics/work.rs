@@ -19,6 +19,18 @@ pub struct Work {
     pub force_evaluations: u64,
 }
 
+impl core::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Work) {
+        let Work { steps, events, pair_tests, face_tests, contacts, force_evaluations } = other;
+        self.steps += steps;
+        self.events += events;
+        self.pair_tests += pair_tests;
+        self.face_tests += face_tests;
+        self.contacts += contacts;
+        self.force_evaluations += force_evaluations;
+    }
+}
+
 impl Work {
     /// Pair and face tests.
     pub fn tests(&self) -> u64 {

@@ -20,15 +20,16 @@ impl EventDriven {
         let mut members = Changed::from_slice(partners);
         let mut place = 0;
         while place < members.len() {
-            let body = &self.bodies[members[place]];
-            let (centre, radius) = (body.segment.position_at(at), body.ball.radius_m);
-            for (other, it) in self.bodies.iter().enumerate() {
-                if !it.solid() || members.contains(&other) {
-                    continue;
-                }
-                let reach = radius + it.ball.radius_m + tolerance::CLUSTER_M;
-                let apart = it.segment.position_at(at) - centre;
-                if apart.length_squared() <= reach * reach {
+            let (centre, radius) = {
+                let index = members[place];
+                (self.centre_at(index, at), self.paths[index].radius_m)
+            };
+            for (other, it) in self.paths.iter().enumerate() {
+                let reach = radius + it.radius_m + tolerance::CLUSTER_M;
+                if it.solid
+                    && self.centre_at(other, at).distance_squared(centre) <= reach * reach
+                    && !members.contains(&other)
+                {
                     members.push(other);
                 }
             }

@@ -20,7 +20,7 @@ fn mirrored(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
                 position: mirror(state.position),
                 velocity: mirror(state.velocity),
                 angular_velocity: turned(state.angular_velocity),
-                ..state.clone()
+                ..*state
             };
             (ball.clone(), state)
         })
@@ -33,7 +33,7 @@ fn renumbered(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
         .iter()
         .map(|(ball, state)| {
             let id = BallId(last - ball.id.0);
-            (Ball { id, ..ball.clone() }, BallState { id, ..state.clone() })
+            (Ball { id, ..ball.clone() }, BallState { id, ..*state })
         })
         .collect()
 }

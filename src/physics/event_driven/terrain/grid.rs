@@ -63,7 +63,8 @@ impl Space {
 impl Terrain {
     pub(super) fn fill_grid(&mut self, radius_m: f64) {
         self.radius_m = radius_m;
-        if self.triangles.is_empty() {
+        // Without balls nothing is ever met.
+        if self.triangles.is_empty() || radius_m <= 0.0 {
             return;
         }
         let reach = DVec3::splat(radius_m * 1.001 + 1e-6);
