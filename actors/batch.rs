@@ -3,7 +3,8 @@
 //! A shot is the same to the last bit whoever computes it beside which others: each runs on a
 //! clone of its own, and only the table is shared.
 
-use hapticbillard::physics::{PhysicsError, Setup, Shot, Simulation};
+pub use hapticbillard::physics::Setup;
+use hapticbillard::physics::{PhysicsError, Shot, Simulation};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 

@@ -32,9 +32,9 @@ summary with run time, work, energy and a hash of the final state. Facts can be 
 
 A line of a --batch file is one shot from the scene's start, all keys optional:
   {\"speed_m_s\":4,\"azimuth_deg\":10,\"elevation_deg\":5,\"side\":0.1,\"height\":-0.2}
-Or balls of its own in place of the scene's, which without a stroke go on as they are:
-  {\"balls\":[{\"id\":0,\"position_m\":[0,0,0.028575],\"velocity_m_s\":[2,0,0]}],\"strike\":{}}
-The results come in the order of the file.
+With \"balls\":[{\"id\":0,\"position_m\":[0,0,0.028575],\"velocity_m_s\":[2,0,0]},..] it
+has balls of its own in place of the scene's, which without speed_m_s go on as they are. The
+results come in the order of the file.
 
 Examples:
   hapticbillard simulate --scene break_shot

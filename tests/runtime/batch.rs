@@ -3,10 +3,10 @@
 use crate::cli::{folder, lines as lines_of, program, text};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::physics::{PhysicsError, PhysicsSettings, Simulation, SolverKind, Strike};
-use hapticbillard::physics::{Setup, Shot, sample_shots};
+use hapticbillard::physics::{Shot, sample_shots};
 use hapticbillard::rack::Rack;
 use hapticbillard::table::Table;
-use hapticbillard_actors::batch;
+use hapticbillard_actors::batch::{self, Setup};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::num::NonZeroUsize;

@@ -2,12 +2,12 @@
 
 use super::exact;
 use super::random::{random_shot, shots};
-use crate::physics::scenes::world;
+use crate::physics::scenes::{pool, world};
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::events::FactSet;
 use hapticbillard::ids::BallId;
-use hapticbillard::table::Table;
+use hapticbillard::physics::Simulation;
 
 fn mirrored(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
     let mirror = |v: DVec3| DVec3::new(v.x, -v.y, v.z);
@@ -20,7 +20,7 @@ fn mirrored(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
                 position: mirror(state.position),
                 velocity: mirror(state.velocity),
                 angular_velocity: turned(state.angular_velocity),
-                ..state.clone()
+                ..*state
             };
             (ball.clone(), state)
         })
@@ -33,15 +33,15 @@ fn renumbered(balls: &[(Ball, BallState)]) -> Vec<(Ball, BallState)> {
         .iter()
         .map(|(ball, state)| {
             let id = BallId(last - ball.id.0);
-            (Ball { id, ..ball.clone() }, BallState { id, ..state.clone() })
+            (Ball { id, ..ball.clone() }, BallState { id, ..*state })
         })
         .collect()
 }
 
 /// Where the balls come to rest, in the order of their numbers; none if they do not within a
 /// minute.
-fn ends(table: &Table, balls: &[(Ball, BallState)]) -> Vec<DVec3> {
-    let mut simulation = world(table, balls, &exact());
+fn ends(start: &Simulation, balls: &[(Ball, BallState)]) -> Vec<DVec3> {
+    let mut simulation = start.with_balls(balls.to_vec()).unwrap();
     simulation.advance(60.0, FactSet::NONE, &mut Vec::new()).unwrap();
     simulation.snapshot(60.0).balls.iter().map(|ball| ball.position).collect()
 }
@@ -53,16 +53,16 @@ fn apart(one: &[DVec3], other: &[DVec3]) -> f64 {
 
 #[test]
 fn a_mirrored_shot_ends_mirrored_and_numbers_do_not_matter() {
-    let table = Table::preset("pool-9ft").unwrap();
+    let start = world(pool(), &random_shot(0), &exact());
     let (mut small, mut breaks) = (Vec::new(), Vec::new());
     for case in 0..shots(40) {
         let balls = random_shot(case);
-        let straight = ends(&table, &balls);
-        let mut image = ends(&table, &mirrored(&balls));
+        let straight = ends(&start, &balls);
+        let mut image = ends(&start, &mirrored(&balls));
         for place in &mut image {
             place.y = -place.y;
         }
-        let mut other = ends(&table, &renumbered(&balls));
+        let mut other = ends(&start, &renumbered(&balls));
         other.reverse();
         let list = if balls.len() <= 4 { &mut small } else { &mut breaks };
         list.push((apart(&straight, &other), apart(&straight, &image), case));
