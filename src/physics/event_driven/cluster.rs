@@ -39,13 +39,12 @@ impl EventDriven {
         members
     }
 
-    /// Several contacts at one instant, because of `partners`; `met` are features that the first
-    /// of them has met.
+    /// Several contacts at one instant; `met` are features that ball `meets` has met.
     pub(super) fn resolve_cluster(
         &mut self,
         at: Seconds,
         members: &[usize],
-        partners: &[usize],
+        meets: usize,
         met: &Touched,
     ) {
         let mut movers: SmallVec<[Mover; 16]> =
@@ -77,7 +76,7 @@ impl EventDriven {
         for (place, index) in members.iter().enumerate() {
             let body = &self.bodies[*index];
             let centre = body.segment.position_at(at);
-            let own = if *index == partners[0] { &met[..] } else { &[] };
+            let own = if *index == meets { &met[..] } else { &[] };
             let near = self.terrain.near(centre, body.ball.radius_m + TOUCH_M);
             let near = near
                 .iter()
@@ -135,17 +134,16 @@ impl EventDriven {
             }
         }
 
-        let depths: SmallVec<[DVec3; 16]> = self.ways_out(at, members, &pairs, &touches[..balls]);
         let mut changed = Changed::new();
         for (place, index) in members.iter().enumerate() {
             let (old, new) = (&before[place], &movers[place]);
             let moved =
                 old.velocity != new.velocity || old.angular_velocity != new.angular_velocity;
-            // Who was near and felt nothing goes on as before.
-            if moved || partners.contains(index) || depths[place] != DVec3::ZERO {
+            if moved || *index == meets || !self.bodies[*index].stands() {
                 changed.push(*index);
             }
         }
+        let depths: SmallVec<[DVec3; 16]> = self.ways_out(at, members, &pairs, &touches[..balls]);
         for (place, index) in members.iter().enumerate() {
             if !changed.contains(index) {
                 continue;

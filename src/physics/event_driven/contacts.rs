@@ -91,7 +91,7 @@ impl EventDriven {
 
         if members.len() > 1 {
             let met: Touched = std::iter::once((feature, normal)).chain(also).collect();
-            self.resolve_cluster(at, &members, &[index], &met);
+            self.resolve_cluster(at, &members, index, &met);
             return Ok(());
         }
         let mut loss_j = 0.0;
@@ -272,7 +272,7 @@ impl EventDriven {
             !self.also_touched(at, index, None, &[], &pushed).is_empty()
         });
         if members.len() > 2 || beside {
-            self.resolve_cluster(at, &members, &[a, b], &Touched::new());
+            self.resolve_cluster(at, &members, a, &Touched::new());
             return Ok(());
         }
 
