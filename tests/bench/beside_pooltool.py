@@ -72,7 +72,8 @@ def main():
     program = sys.argv[1]
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 3
-    groups, _ = of_the_program(program, 2)
+    # Every path of pooltool's code is compiled once, and not measured.
+    groups, _ = of_the_program(program, count)
     for shots in groups.values():
         of_pooltool(shots)
 

@@ -1,7 +1,8 @@
 //! `simulate --bench`: how long shots take, beside the stepper on the same shots in the same run.
 //!
-//! Processor time of this thread, without making the world. Both solvers take turns shot by shot,
-//! so that whatever else the machine does hits both alike; trust the ratio.
+//! Processor time of this thread, without making the world. Both solvers take turns every few
+//! shots, so that whatever else the machine does hits both alike, and neither pays for what the
+//! other has left in the caches; trust the ratio.
 
 use super::super::{Status, json_line, progress};
 use super::print::{BallLine, balls};
@@ -16,6 +17,9 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use serde::Serialize;
 use std::io::Write;
+
+/// So many shots one solver runs before the other has its turn.
+const TURN: usize = 20;
 
 /// The seed of the sample shots, if nobody gives one.
 const SEED: u64 = 7;
@@ -92,22 +96,26 @@ pub fn run(
     let mut reports = Vec::new();
     for group in &groups {
         let mut sums = Sums::default();
-        for (number, (start, reference)) in group.shots.iter().enumerate() {
-            let (cpu_us, end) = timed(args, start)?;
-            sums.times_us.push(cpu_us);
-            sums.work += end.work();
-            sums.simulated_s += end.now_s() - start.now_s();
-            if let Some(reference) = reference {
-                let (cpu_us, end) = timed(args, reference)?;
-                sums.reference_us.push(cpu_us);
-                sums.reference += end.work();
+        for (turn, shots) in group.shots.chunks(TURN).enumerate() {
+            for (number, (start, _)) in shots.iter().enumerate() {
+                let (cpu_us, end) = timed(args, start)?;
+                sums.times_us.push(cpu_us);
+                sums.work += end.work();
+                sums.simulated_s += end.now_s() - start.now_s();
+                if args.json && stage.is_none() {
+                    let (balls, events) = (balls(start, start.now_s()), end.work().events);
+                    let (group, shot) = (group.name, turn * TURN + number + 1);
+                    json_line(out, &ShotLine { group, shot, balls, cpu_us, events })?;
+                }
             }
-            if args.json && stage.is_none() {
-                let (balls, events) = (balls(start, start.now_s()), end.work().events);
-                let group = group.name;
-                json_line(out, &ShotLine { group, shot: number + 1, balls, cpu_us, events })?;
+            for (_, reference) in shots {
+                if let Some(reference) = reference {
+                    let (cpu_us, end) = timed(args, reference)?;
+                    sums.reference_us.push(cpu_us);
+                    sums.reference += end.work();
+                }
+                bar.inc(1);
             }
-            bar.inc(1);
         }
         reports.push(report(group.name, sums));
     }

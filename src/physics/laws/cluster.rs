@@ -142,11 +142,9 @@ pub fn resolve(movers: &mut [Mover], touches: &mut [Touch]) -> bool {
             let approach = slip.dot(touch.normal);
             let closing = approach < -tolerance::CLOSING_M_S;
             // What carries a ball that nothing strikes has nothing to answer.
-            if !closing && !(touch.carries && struck.has(touch.a)) {
-                continue;
-            }
+            let acts = closing || touch.carries && struck.has(touch.a);
             let (normal_compliance, tangential_compliance) = touch.compliance(movers);
-            if normal_compliance > 0.0 {
+            if acts && normal_compliance > 0.0 {
                 let bounces = elastic && touch.sticky_m_s < -approach;
                 let restitution = if bounces { touch.restitution } else { 0.0 };
                 let target = if touch.carries { 0.0 } else { -restitution * approach };
