@@ -77,7 +77,8 @@ impl EventDriven {
             let body = &self.bodies[*index];
             let centre = body.segment.position_at(at);
             let own = if *index == meets { &met[..] } else { &[] };
-            let near = self.terrain.near(centre, body.ball.radius_m + TOUCH_M);
+            let on_main = body.held.len() == 1 && body.held[0] == self.terrain.main_patch();
+            let near = self.terrain.near_but(centre, body.ball.radius_m + TOUCH_M, on_main);
             let near = near
                 .iter()
                 .filter(|(feature, _, _)| {

@@ -71,6 +71,10 @@ impl EventDriven {
         // A lasting ball's piece ends with the step of all of them.
         let end_s = if segment.course == Course::Lasting { f64::INFINITY } else { segment.end_s };
         body.own = Own::Ends(end_s);
+        work.flights += u64::from(segment.course == Course::Flying);
+        let spins =
+            segment.spin_deceleration > 0.0 && segment.angular_velocity.dot(segment.normal) != 0.0;
+        work.spins += u64::from(spins);
         if body.ball.flags.collide && !body.stands() {
             let until = segment.end_s.min(at + 1e4);
             let radius = body.ball.radius_m;
@@ -86,7 +90,7 @@ impl EventDriven {
     }
 
     /// The next thing that is only told: the head string, or sinking below the bed.
-    pub(super) fn next_report(&self, after: Seconds, index: usize) -> (Seconds, Report) {
+    pub(super) fn next_report(&mut self, after: Seconds, index: usize) -> (Seconds, Report) {
         let body = &self.bodies[index];
         let none = (f64::INFINITY, Report::HeadString);
         let Some(head) = self.terrain.head_string_x() else { return none };
@@ -107,9 +111,10 @@ impl EventDriven {
         }
         let radius = body.ball.radius_m;
         let sinks = !self.terrain.pockets.is_empty()
-            && matches!(segment.course, Course::Flying | Course::Lasting);
+            && matches!(segment.course, Course::Flying | Course::Lasting)
+            && x.z > -radius + tolerance::PUSH_OUT_M;
+        self.work.pocket_tests += u64::from(sinks);
         if sinks
-            && x.z > -radius + tolerance::PUSH_OUT_M
             && let Some(time) = closing::falling_quadratic(x.z + radius, v.z, a.z, horizon)
             && after + time < best.0
         {
