@@ -158,6 +158,8 @@ impl EventDriven {
         for index in 0..count {
             world.lay_down(index);
         }
+        // What laying down took off is before the start.
+        world.ledger = Ledger::default();
         world.ledger.start_j = world.bodies.iter().map(|body| world.energy_of(body, 0.0)).sum();
         world.ledger.momentum.start = world.momentum(0.0);
         for index in 0..count {
