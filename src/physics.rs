@@ -7,6 +7,7 @@ mod checks;
 mod error;
 mod guided_cue;
 mod settings;
+mod setup;
 mod snapshot;
 
 mod parameters;
@@ -42,7 +43,8 @@ pub use ledger::{Ledger, Momentum};
 pub use parameters::{Contact, Parameters};
 pub use profiles::Equipment;
 pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
-pub use shot::{Shot, Strike, StrikeError, Trajectory};
+pub use setup::{Setup, SetupError};
+pub use shot::{Shot, Strike, Trajectory};
 pub use simulation::Simulation;
 pub use snapshot::Snapshot;
 pub use solver::Solver;

@@ -9,13 +9,14 @@ mod print;
 use super::{Status, positive};
 use clap::{Args, ValueEnum};
 use hapticbillard::events::{FactKind, FactSet, Topic};
-use hapticbillard::physics::{Integrator, SolverKind};
+use hapticbillard::physics::{Integrator, PhysicsSettings, SolverKind};
 use hapticbillard::scene::Scene;
 use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use std::io::Write;
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Who waits for rest gives up after this long [s].
@@ -31,21 +32,24 @@ summary with run time, work, energy and a hash of the final state. Facts can be 
 
 A line of a --batch file is one shot from the scene's start, all keys optional:
   {\"speed_m_s\":4,\"azimuth_deg\":10,\"elevation_deg\":5,\"side\":0.1,\"height\":-0.2}
-The results come in the order of the file.
+With \"balls\":[{\"id\":0,\"position_m\":[0,0,0.028575],\"velocity_m_s\":[2,0,0]},..] it
+has balls of its own in place of the scene's, which without speed_m_s go on as they are. The
+results come in the order of the file.
 
 Examples:
   hapticbillard simulate --scene break_shot
   hapticbillard simulate --scene one_ball --until 2 --sample 0.1 --json
   hapticbillard simulate --scene break_shot --step-ms 0.1 --integrator rk4 --bench 20
+  hapticbillard simulate --bench 200
   hapticbillard simulate --scene free_play --batch shots.jsonl --json > results.jsonl";
 
 /// Runs the physics of a scene, without rules and players.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct SimulateArgs {
-    /// A shipped scene (see `scenes`) or a scene file.
-    #[arg(long, value_name = "SCENE")]
-    pub scene: String,
+    /// A shipped scene (see `scenes`) or a scene file; --bench has shots of its own without one.
+    #[arg(long, value_name = "SCENE", required_unless_present = "bench")]
+    pub scene: Option<String>,
 
     /// Fixes everything random, in place of the scene's seed.
     #[arg(long, value_name = "N")]
@@ -75,14 +79,19 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub sample: Option<f64>,
 
-    /// Runs the same shot so many times and prints run times.
-    #[arg(long, value_name = "N", conflicts_with_all = ["batch", "sample"],
+    /// Runs the scene's shot so many times, or each shot of --batch once, or without a scene so
+    /// many random breaks and small shots, and prints run times beside those of fixed-step.
+    #[arg(long, value_name = "N", conflicts_with = "sample",
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub bench: Option<u32>,
 
-    /// Strikes the cue ball as each line of this file says, on all cores.
-    #[arg(long, value_name = "FILE", conflicts_with = "sample")]
+    /// Runs the shot in each line of this file from the scene's start, on all cores.
+    #[arg(long, value_name = "FILE", conflicts_with = "sample", requires = "scene")]
     pub batch: Option<PathBuf>,
+
+    /// So many threads for --batch, in place of one for each core; no result depends on it.
+    #[arg(long, value_name = "N", requires = "batch")]
+    pub threads: Option<NonZeroUsize>,
 
     /// Prints JSON lines.
     #[arg(long)]
@@ -121,17 +130,21 @@ fn override_scene(args: &SimulateArgs, scene: &mut Scene) {
     if let Some(seed) = args.seed {
         scene.about.seed = seed;
     }
+    override_physics(args, &mut scene.physics);
+}
+
+fn override_physics(args: &SimulateArgs, physics: &mut PhysicsSettings) {
     if let Some(solver) = args.solver {
-        scene.physics.solver = match solver {
+        physics.solver = match solver {
             SolverName::EventDriven => SolverKind::EventDriven,
             SolverName::FixedStep => SolverKind::FixedStep,
         };
     }
     if let Some(step_ms) = args.step_ms {
-        scene.physics.step_ms = step_ms;
+        physics.step_ms = step_ms;
     }
     if let Some(integrator) = args.integrator {
-        scene.physics.integrator = match integrator {
+        physics.integrator = match integrator {
             IntegratorName::EulerCromer => Integrator::EulerCromer,
             IntegratorName::Verlet => Integrator::Verlet,
             IntegratorName::Rk4 => Integrator::Rk4,
@@ -139,18 +152,25 @@ fn override_scene(args: &SimulateArgs, scene: &mut Scene) {
     }
 }
 
+/// The scene, with what the command line says about it.
+fn stage(args: &SimulateArgs, name: &str) -> Result<Stage, Error> {
+    let mut loaded = load_scene(name)?;
+    override_scene(args, &mut loaded.scene);
+    Stage::new(&loaded, name)
+}
+
 /// Simulates.
 pub fn run(args: &SimulateArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    let mut loaded = load_scene(&args.scene)?;
-    override_scene(args, &mut loaded.scene);
-    let stage = Stage::new(&loaded, &args.scene)?;
-    let simulation = stage.simulation()?;
+    let stage = args.scene.as_deref().map(|name| stage(args, name)).transpose()?;
     if let Some(shots) = args.bench {
-        return bench::run(args, &simulation, shots, out);
+        return bench::run(args, stage.as_ref(), shots, out);
     }
+    // The command line sees to it that there is a scene.
+    let Some(stage) = stage else { return Ok(Status::CheckFailed) };
     if let Some(file) = &args.batch {
-        return batch::run(args, &simulation, file, out);
+        return batch::run(args, &stage, file, out);
     }
+    let simulation = stage.simulation()?;
     let start = thread_cpu_time();
     let mut simulation = simulation;
     let mut time = 0.0;

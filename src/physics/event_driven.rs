@@ -18,6 +18,7 @@ mod contacts;
 mod course;
 mod lasting;
 mod motion;
+mod path;
 mod predict;
 #[cfg(test)]
 mod resegment;
@@ -38,6 +39,7 @@ use crate::ids::BallId;
 use crate::table::Table;
 use crate::units::Seconds;
 use body::{Body, Own};
+use path::Path;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use terrain::Terrain;
@@ -54,6 +56,10 @@ pub struct EventDriven {
     parameters: Parameters,
     /// All balls, in ascending order of id.
     bodies: Vec<Body>,
+    /// For each ball its way, as detection sees it.
+    paths: Vec<Path>,
+    /// For each ball when it meets another first [s], and which.
+    pairs: Vec<(Seconds, usize)>,
     /// For each ball the time of the first thing that happens to it [s].
     next: Vec<Seconds>,
     tip: Option<Tip>,
@@ -130,6 +136,8 @@ impl EventDriven {
         let mut world = EventDriven {
             terrain,
             parameters,
+            paths: bodies.iter().map(Path::of).collect(),
+            pairs: vec![(f64::INFINITY, 0); count],
             bodies,
             next: vec![f64::INFINITY; count],
             tip: None,
@@ -150,6 +158,8 @@ impl EventDriven {
         for index in 0..count {
             world.lay_down(index);
         }
+        // What laying down took off is before the start.
+        world.ledger = Ledger::default();
         world.ledger.start_j = world.bodies.iter().map(|body| world.energy_of(body, 0.0)).sum();
         world.ledger.momentum.start = world.momentum(0.0);
         for index in 0..count {
@@ -226,13 +236,13 @@ impl EventDriven {
 
     fn ball_event(&mut self, at: Seconds, index: usize) -> Result<(), PhysicsError> {
         let body = &self.bodies[index];
-        let (own, pair, report) = (body.own_s(), body.pair.0, body.report.0);
+        let (own, pair, report) = (body.own_s(), self.pairs[index].0, body.report.0);
         if report <= own && report <= pair {
             self.report(at, index);
             return Ok(());
         }
         if pair < own {
-            let other = body.pair.1;
+            let other = self.pairs[index].1;
             return self.collide(at, index, other);
         }
         match body.own {
@@ -349,8 +359,8 @@ impl Solver for EventDriven {
     }
 
     fn hash(&self, hash: &mut StateHash) {
-        for body in &self.bodies {
-            body.hash(hash);
+        for (body, pair) in self.bodies.iter().zip(&self.pairs) {
+            body.hash(pair.0, hash);
         }
         if let Some(tip) = &self.tip {
             tip.cue.hash(hash);

@@ -7,10 +7,8 @@ use crate::ball::{BallPlace, BallState};
 use crate::cue::{CuePath, CuePiece};
 use crate::events::Fact;
 use crate::ids::BallId;
-use crate::one_line::without_place;
 use crate::units::Seconds;
 use glam::DVec3;
-use serde::Deserialize;
 
 /// The tip sets out this far from the ball [m].
 const RUN_UP_M: f64 = 0.005;
@@ -22,11 +20,7 @@ const SPEED_LEAST_M_S: f64 = 0.001;
 const FOLLOW_THROUGH_S: Seconds = 0.02;
 
 /// A stroke at the cue ball.
-///
-/// JSON: `{"speed_m_s":4,"azimuth_deg":10,"elevation_deg":5,"side":0.1,"height":-0.2}`; what is
-/// missing is as in [`Strike::CENTRE`].
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
     /// Speed of the tip at the contact [m/s].
     pub speed_m_s: f64,
@@ -36,21 +30,9 @@ pub struct Strike {
     pub elevation_deg: f64,
     /// Where the tip hits the ball, from its middle to the right as the player sees it, over the
     /// ball's radius.
-    #[serde(rename = "side")]
     pub side_offset: f64,
     /// The same upwards: positive makes follow, negative draw.
-    #[serde(rename = "height")]
     pub height_offset: f64,
-}
-
-/// A line is no stroke.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("column {column}: {problem}; a line is for example {{\"speed_m_s\":4,\"azimuth_deg\":10}}")]
-pub struct StrikeError {
-    /// From 1.
-    pub column: usize,
-    /// What is wrong.
-    pub problem: String,
 }
 
 impl Default for Strike {
@@ -68,17 +50,6 @@ impl Strike {
         side_offset: 0.0,
         height_offset: 0.0,
     };
-
-    /// Reads a stroke from a line of JSON.
-    ///
-    /// # Errors
-    /// [`StrikeError`] with the column and the keys that there are.
-    pub fn from_json(line: &str) -> Result<Self, StrikeError> {
-        serde_json::from_str(line).map_err(|error| StrikeError {
-            column: error.column().max(1),
-            problem: without_place(&error),
-        })
-    }
 
     /// Unit vector along the shaft, from butt to tip.
     pub fn direction(&self) -> DVec3 {

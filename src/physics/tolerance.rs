@@ -55,7 +55,7 @@ pub const TIP_BLIND_S: Seconds = 0.05;
 pub const CLUSTER_ROUNDS: usize = 40;
 
 /// Relative change of impulses at which the iteration of one round ends.
-pub const CLUSTER_RELATIVE: f64 = 1e-12;
+pub const CLUSTER_RELATIVE: f64 = 2e-14;
 
 /// Iterations of one round at most. It bounds the work of large clusters.
 pub const CLUSTER_ITERATIONS: usize = 200;

@@ -57,7 +57,8 @@ pub fn fitted_order(
 
 /// Everything that was computed, added up.
 fn computations(work: Work) -> u64 {
-    work.events + work.tests() + work.contacts + work.force_evaluations
+    let looks = work.flights + work.spins + work.pocket_tests;
+    work.events + work.tests() + work.contacts + work.force_evaluations + looks
 }
 
 /// Whether no other row has a smaller or equal error for less computation, or a smaller one for as

@@ -235,7 +235,7 @@ pub fn judge(prepared: &Prepared, method: Method, runs: &[Result<Track, Failure>
     let mut first = None;
     for (start, run) in runs.iter().enumerate() {
         let judged = run.as_ref().map_err(Failure::clone).and_then(|track| {
-            work = sum(work, track.work);
+            work += track.work;
             prepared.error_m(start, track)
         });
         match judged {
@@ -257,15 +257,4 @@ pub fn judge(prepared: &Prepared, method: Method, runs: &[Result<Track, Failure>
 pub fn left_out(scene: &Scene, method: Method, why: &'static str) -> Row {
     let (error_m, order, work) = (None, None, Work::default());
     Row { scene: scene.id, method, error_m, order, work, status: Status::LeftOut(why) }
-}
-
-fn sum(a: Work, b: Work) -> Work {
-    Work {
-        steps: a.steps + b.steps,
-        events: a.events + b.events,
-        pair_tests: a.pair_tests + b.pair_tests,
-        face_tests: a.face_tests + b.face_tests,
-        contacts: a.contacts + b.contacts,
-        force_evaluations: a.force_evaluations + b.force_evaluations,
-    }
 }

@@ -2,6 +2,7 @@
 
 mod extremes;
 mod interruption;
+mod left_out;
 mod random;
 mod springs;
 mod symmetry;

@@ -28,7 +28,7 @@ const LAYERS: [&[&str]; 14] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 23] = [
+const ACTORS: [(&str, Option<&str>); 24] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -39,6 +39,7 @@ const ACTORS: [(&str, Option<&str>); 23] = [
     ("renderer", Some("renderer")),
     ("rules", Some("rules")),
     ("participant", Some("tick")),
+    ("batch", None),
     ("build", None),
     ("cli", None),
     ("cpu_time", None),

@@ -2,7 +2,7 @@
 //! `simulate --batch`. Whatever stands in them, they are taken or refused in one line.
 
 use super::generator::{cases, generator, seed, spoiled};
-use hapticbillard::physics::{Simulation, Strike};
+use hapticbillard::physics::{Setup, Simulation};
 use hapticbillard::rack::Rack;
 use hapticbillard::rules::{Console, GameKind, ScenarioStatus, read_scenarios, run_scenario};
 use hapticbillard::table::Table;
@@ -160,15 +160,15 @@ fn spoiled_strokes_are_played_or_refused_in_one_line() {
         let mut random = generator(case);
         let place = format!("seed {}, case {case}", seed());
         let line = spoiled(STRIKE, &STRIKE_WORDS, &mut random);
-        let strike = match Strike::from_json(&line) {
-            Ok(strike) => strike,
+        let setup = match Setup::from_json(&line, &[]) {
+            Ok(setup) => setup,
             Err(error) => {
                 refused += 1;
                 check_line(&error.to_string(), &place);
                 continue;
             }
         };
-        match start.clone().strike(strike) {
+        match setup.begin(&start) {
             Ok(mut simulation) => {
                 struck += 1;
                 // To play takes longer than to read: some are enough for a smoke.

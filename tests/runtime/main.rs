@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// Many shots at once.
+mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
 /// Random facts for the referee, as the fuzz tests of the core make them.

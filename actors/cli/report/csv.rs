@@ -29,7 +29,8 @@ pub fn errors(measured: &[Measured]) -> String {
     let mut text = String::from(
         "scene,method,step_ms,error_name,norm,unit,error,reference,reference_error,\
          observed_order,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,steps,\
-         events,pair_tests,face_tests,contacts,force_evaluations,status,remark\n",
+         events,pair_tests,face_tests,contacts,force_evaluations,\
+         flights,spins,pocket_tests,status,remark\n",
     );
     for scene in measured {
         let prepared = &scene.prepared;
@@ -40,7 +41,8 @@ pub fn errors(measured: &[Measured]) -> String {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{},{},{},position,{},m,{},{reference},{:e},{},{},{},{},{},{},{},{},{},{},{},\
+                "{},{},{},position,{},m,{},{reference},\
+                 {:e},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\
                  {word},{}",
                 row.scene,
                 row.method.name(),
@@ -59,6 +61,9 @@ pub fn errors(measured: &[Measured]) -> String {
                 work.face_tests,
                 work.contacts,
                 work.force_evaluations,
+                work.flights,
+                work.spins,
+                work.pocket_tests,
                 quoted(&remark),
             );
         }

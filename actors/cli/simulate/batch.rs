@@ -1,14 +1,14 @@
 //! `simulate --batch`: many independent shots from one start, on all cores.
 
-use super::super::in_order::in_order;
 use super::super::{Status, json_line, progress};
 use super::SimulateArgs;
 use super::print::{BallLine, Energy, FactLine, balls, state_hash};
 use hapticbillard::events::FactKind;
 use hapticbillard::hash::Digest;
-use hapticbillard::physics::{Shot, Simulation, Strike};
+use hapticbillard_actors::batch::{self, Setup};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::read_text;
+use hapticbillard_actors::game::Stage;
 use serde::Serialize;
 use std::io::Write;
 use std::path::Path;
@@ -18,7 +18,7 @@ const SIZE_MAX: u64 = 256 << 20;
 
 #[derive(Serialize)]
 struct ShotLine<'a> {
-    shot: u32,
+    shot: usize,
     end_s: f64,
     facts: Vec<FactLine<'a>>,
     balls: Vec<BallLine>,
@@ -30,25 +30,21 @@ struct ShotLine<'a> {
 /// Runs all shots of `file`.
 pub fn run(
     args: &SimulateArgs,
-    start: &Simulation,
+    stage: &Stage,
     file: &Path,
     out: &mut dyn Write,
 ) -> Result<Status, Error> {
-    let strikes = read(file)?;
-    let count = u32::try_from(strikes.len()).unwrap_or(u32::MAX);
-    let bar = progress(u64::from(count), "shots");
-    let shoot = |shot: u32| -> Result<Shot, Error> {
-        let (line, strike) = strikes[shot as usize];
-        let struck = start.clone().strike(strike).and_then(Simulation::run_until_rest);
-        struck.map_err(|error| wrong(file, line, error))
-    };
-    in_order(count, shoot, |shot, result| {
-        let result = result?;
-        bar.inc(1);
-        let (end_s, facts) = (result.end_s, &result.facts);
+    let start = stage.simulation()?;
+    let shots = read(stage, file)?;
+    let setups: Vec<Setup> = shots.iter().map(|(_, setup)| setup.clone()).collect();
+    let bar = progress(setups.len() as u64, "shots");
+    let done = || bar.inc(1);
+    batch::run(&start, &setups, args.threads, done, |shot, result| {
+        let result = result.map_err(|error| wrong(file, shots[shot].0, error))?;
+        let (number, end_s, facts) = (shot + 1, result.end_s, &result.facts);
         if args.json {
             let line = ShotLine {
-                shot: shot + 1,
+                shot: number,
                 end_s,
                 facts: facts.iter().map(FactLine::from).collect(),
                 balls: balls(&result.end, end_s),
@@ -65,28 +61,30 @@ pub fn run(
             })
             .collect();
         let pots = if pots.is_empty() { String::from("nothing falls") } else { pots.join(", ") };
-        Ok(writeln!(out, "shot {:>4}: {end_s:>7.3} s, {} facts; {pots}", shot + 1, facts.len())?)
+        Ok(writeln!(out, "shot {number:>4}: {end_s:>7.3} s, {} facts; {pots}", facts.len())?)
     })?;
     bar.finish_and_clear();
     if args.json {
-        json_line(out, &serde_json::json!({ "summary": { "shots": count } }))?;
+        json_line(out, &serde_json::json!({ "summary": { "shots": setups.len() } }))?;
     }
     Ok(Status::Success)
 }
 
-/// The strikes of a file, with their lines.
-fn read(file: &Path) -> Result<Vec<(usize, Strike)>, Error> {
+/// The shots of a file, with their lines.
+pub fn read(stage: &Stage, file: &Path) -> Result<Vec<(usize, Setup)>, Error> {
+    let known = stage.scene.build_balls(&stage.table)?;
     let text = read_text(file, SIZE_MAX)?;
     let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     lines
-        .map(|(index, line)| match Strike::from_json(line) {
-            Ok(strike) => Ok((index + 1, strike)),
+        .map(|(index, line)| match Setup::from_json(line, &known) {
+            Ok(setup) => Ok((index + 1, setup)),
             Err(error) => Err(wrong(file, index + 1, error)),
         })
         .collect()
 }
 
-fn wrong(file: &Path, line: usize, error: impl std::fmt::Display) -> Error {
+/// What is wrong with a line.
+pub fn wrong(file: &Path, line: usize, error: impl std::fmt::Display) -> Error {
     let fix = "see simulate --help for what a line may hold";
     Error::input(format!("{}:{line}", file.display()), error.to_string(), fix)
 }

@@ -1,14 +1,46 @@
-//! `simulate --bench`: how long a shot takes.
+//! `simulate --bench`: how long shots take, beside the stepper on the same shots in the same run.
+//!
+//! Processor time of this thread, without making the world. Both solvers take turns every few
+//! shots, so that whatever else the machine does hits both alike, and neither pays for what the
+//! other has left in the caches; trust the ratio.
 
 use super::super::{Status, json_line, progress};
-use super::{LONGEST_S, SETTLED, SimulateArgs};
-use hapticbillard::physics::Simulation;
+use super::print::{BallLine, balls};
+use super::{LONGEST_S, SETTLED, SimulateArgs, batch};
+use hapticbillard::events::FactSet;
+use hapticbillard::physics::{PhysicsSettings, Simulation, SolverKind, Work, sample_shots};
+use hapticbillard::table::Table;
 use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;
+use hapticbillard_actors::game::Stage;
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
 use serde::Serialize;
 use std::io::Write;
 
+/// So many shots one solver runs before the other has its turn.
+const TURN: usize = 20;
+
+/// The seed of the sample shots, if nobody gives one.
+const SEED: u64 = 7;
+
+/// Shots that belong together.
+struct Group {
+    name: &'static str,
+    /// Each shot at its start, and again for the stepper.
+    shots: Vec<(Simulation, Option<Simulation>)>,
+}
+
 #[derive(Serialize)]
+struct ShotLine {
+    group: &'static str,
+    shot: usize,
+    balls: Vec<BallLine>,
+    cpu_us: f64,
+    events: u64,
+}
+
+#[derive(Serialize, Clone, Copy)]
 struct Spread {
     mean: f64,
     median: f64,
@@ -16,68 +48,229 @@ struct Spread {
 }
 
 #[derive(Serialize)]
-struct Summary {
-    shots: u32,
+struct Report {
+    group: &'static str,
+    shots: usize,
     cpu_us_per_shot: Spread,
     events_per_shot: f64,
     us_per_event: Option<f64>,
     steps_per_shot: f64,
     simulated_s_per_shot: f64,
+    /// All counters.
+    work: Work,
+    fixed_step: Option<Reference>,
 }
 
-/// Runs the same shot `shots` times and prints processor times.
+/// The stepper on the same shots.
+#[derive(Serialize)]
+struct Reference {
+    cpu_us_per_shot: Spread,
+    steps_per_shot: f64,
+    /// Its mean time over that of the solver.
+    ratio: f64,
+}
+
+/// Times [µs] and counts.
+#[derive(Default)]
+struct Sums {
+    times_us: Vec<f64>,
+    reference_us: Vec<f64>,
+    work: Work,
+    reference: Work,
+    simulated_s: f64,
+}
+
+/// Runs `count` shots of each group and prints processor times.
 pub fn run(
     args: &SimulateArgs,
-    start: &Simulation,
-    shots: u32,
+    stage: Option<&Stage>,
+    count: u32,
     out: &mut dyn Write,
 ) -> Result<Status, Error> {
-    let bar = progress(u64::from(shots), "shots");
-    let mut times_us = Vec::with_capacity(shots as usize);
-    let (mut events, mut steps, mut simulated_s) = (0, 0, 0.0);
-    let mut facts = Vec::new();
-    for _ in 0..shots {
-        let mut simulation = start.clone();
-        facts.clear();
-        let begin = thread_cpu_time();
-        match args.until {
-            Some(until) => {
-                simulation.advance(until, hapticbillard::events::FactSet::NONE, &mut facts)?;
+    let groups = match stage {
+        Some(stage) => vec![of_scene(args, stage, count)?],
+        None => samples(args, count)?,
+    };
+    let total: usize = groups.iter().map(|group| group.shots.len()).sum();
+    let bar = progress(total as u64, "shots");
+    let mut reports = Vec::new();
+    for group in &groups {
+        let mut sums = Sums::default();
+        for (turn, shots) in group.shots.chunks(TURN).enumerate() {
+            for (number, (start, _)) in shots.iter().enumerate() {
+                let (cpu_us, end) = timed(args, start)?;
+                sums.times_us.push(cpu_us);
+                sums.work += end.work();
+                sums.simulated_s += end.now_s() - start.now_s();
+                if args.json && stage.is_none() {
+                    let (balls, events) = (balls(start, start.now_s()), end.work().events);
+                    let (group, shot) = (group.name, turn * TURN + number + 1);
+                    json_line(out, &ShotLine { group, shot, balls, cpu_us, events })?;
+                }
             }
-            None => {
-                simulation.advance(LONGEST_S, SETTLED, &mut facts)?;
+            for (_, reference) in shots {
+                if let Some(reference) = reference {
+                    let (cpu_us, end) = timed(args, reference)?;
+                    sums.reference_us.push(cpu_us);
+                    sums.reference += end.work();
+                }
+                bar.inc(1);
             }
         }
-        times_us.push((thread_cpu_time() - begin).as_secs_f64() * 1e6);
-        events += simulation.work().events;
-        steps += simulation.work().steps;
-        simulated_s += simulation.now_s() - start.now_s();
-        bar.inc(1);
+        reports.push(report(group.name, sums));
     }
     bar.finish_and_clear();
-    times_us.sort_by(f64::total_cmp);
-    let n = f64::from(shots);
-    let at = |share: f64| times_us[((n * share) as usize).min(times_us.len() - 1)];
-    let mean = times_us.iter().sum::<f64>() / n;
-    let events_per_shot = events as f64 / n;
-    let summary = Summary {
-        shots,
-        cpu_us_per_shot: Spread { mean, median: at(0.5), p99: at(0.99) },
-        events_per_shot,
-        us_per_event: (events > 0).then(|| mean / events_per_shot),
-        steps_per_shot: steps as f64 / n,
-        simulated_s_per_shot: simulated_s / n,
-    };
     if args.json {
-        json_line(out, &serde_json::json!({ "summary": summary }))?;
-        return Ok(Status::Success);
+        // One group is the summary; of several each is a part of it.
+        return match &reports[..] {
+            [one] => json_line(out, &serde_json::json!({ "summary": one })),
+            _ => json_line(out, &serde_json::json!({ "summary": { "groups": reports } })),
+        }
+        .map(|()| Status::Success);
     }
-    let Spread { mean, median, p99 } = summary.cpu_us_per_shot;
+    reports.iter().try_for_each(|report| print(report, out))?;
+    Ok(Status::Success)
+}
+
+/// The shot of a scene, again and again, or the shots of a file from it.
+fn of_scene(args: &SimulateArgs, stage: &Stage, count: u32) -> Result<Group, Error> {
+    let start = stage.simulation()?;
+    let stepper = match stage.scene.physics.solver {
+        SolverKind::FixedStep => None,
+        SolverKind::EventDriven => {
+            let balls = stage.scene.build_balls(&stage.table)?;
+            let settings = stepper(&stage.scene.physics);
+            Some(Simulation::from_parts(&stage.table, balls, &settings)?)
+        }
+    };
+    let Some(file) = &args.batch else {
+        let shots = (0..count).map(|_| (start.clone(), stepper.clone())).collect();
+        return Ok(Group { name: "scene", shots });
+    };
+    let mut shots = Vec::new();
+    for (line, setup) in batch::read(stage, file)? {
+        let begin = |start: &Simulation| {
+            setup.begin(start).map_err(|error| batch::wrong(file, line, error))
+        };
+        shots.push((begin(&start)?, stepper.as_ref().map(begin).transpose()?));
+    }
+    Ok(Group { name: "batch", shots })
+}
+
+fn stepper(settings: &PhysicsSettings) -> PhysicsSettings {
+    PhysicsSettings { solver: SolverKind::FixedStep, ..settings.clone() }
+}
+
+/// Breaks and small shots on the nine-foot table.
+fn samples(args: &SimulateArgs, count: u32) -> Result<Vec<Group>, Error> {
+    let table = Table::preset("pool-9ft").map_err(|error| {
+        Error::input(String::from("pool-9ft"), error.to_string(), "name a scene with --scene")
+    })?;
+    let mut settings = PhysicsSettings::default();
+    super::override_physics(args, &mut settings);
+    let empty = Simulation::from_parts(&table, Vec::new(), &settings)?;
+    let stepper = match settings.solver {
+        SolverKind::FixedStep => None,
+        SolverKind::EventDriven => {
+            Some(Simulation::from_parts(&table, Vec::new(), &stepper(&settings))?)
+        }
+    };
+    let mut groups = Vec::new();
+    for name in ["break", "small"] {
+        let mut random = Pcg64::seed_from_u64(args.seed.unwrap_or(SEED));
+        let mut first: Option<Simulation> = None;
+        let mut shots = Vec::new();
+        for _ in 0..count {
+            let balls = match name {
+                "break" => sample_shots::break_shot(&table, &mut random),
+                _ => sample_shots::small_shot(&table, &mut random),
+            };
+            let balls = balls.map_err(hapticbillard::physics::PhysicsError::from)?;
+            // Made once for balls of this size, then shared.
+            let like = first.as_ref().unwrap_or(&empty);
+            let shot = like.with_balls(balls.clone())?;
+            let reference = stepper.as_ref().map(|start| start.with_balls(balls)).transpose()?;
+            first.get_or_insert_with(|| shot.clone());
+            shots.push((shot, reference));
+        }
+        groups.push(Group { name, shots });
+    }
+    Ok(groups)
+}
+
+/// Runs a shot; processor time [µs] and the world after it.
+fn timed(args: &SimulateArgs, start: &Simulation) -> Result<(f64, Simulation), Error> {
+    let mut simulation = start.clone();
+    let mut facts = Vec::new();
+    let (limit, stop) = match args.until {
+        Some(until) => (until, FactSet::NONE),
+        None => (LONGEST_S, SETTLED),
+    };
+    let begin = thread_cpu_time();
+    simulation.advance(limit, stop, &mut facts)?;
+    Ok(((thread_cpu_time() - begin).as_secs_f64() * 1e6, simulation))
+}
+
+fn report(group: &'static str, sums: Sums) -> Report {
+    let shots = sums.times_us.len();
+    let n = shots as f64;
+    let time = spread(sums.times_us);
+    let events = sums.work.events;
+    let fixed_step = (!sums.reference_us.is_empty()).then(|| {
+        let cpu_us_per_shot = spread(sums.reference_us);
+        let ratio = cpu_us_per_shot.mean / time.mean;
+        Reference { cpu_us_per_shot, steps_per_shot: sums.reference.steps as f64 / n, ratio }
+    });
+    Report {
+        group,
+        shots,
+        cpu_us_per_shot: time,
+        events_per_shot: events as f64 / n,
+        us_per_event: (events > 0).then(|| time.mean * n / events as f64),
+        steps_per_shot: sums.work.steps as f64 / n,
+        simulated_s_per_shot: sums.simulated_s / n,
+        work: sums.work,
+        fixed_step,
+    }
+}
+
+fn spread(mut times_us: Vec<f64>) -> Spread {
+    times_us.sort_by(f64::total_cmp);
+    let n = times_us.len() as f64;
+    let at = |share: f64| times_us[((n * share) as usize).min(times_us.len() - 1)];
+    Spread { mean: times_us.iter().sum::<f64>() / n, median: at(0.5), p99: at(0.99) }
+}
+
+fn print(report: &Report, out: &mut dyn Write) -> Result<(), Error> {
+    let Spread { mean, median, p99 } = report.cpu_us_per_shot;
     writeln!(
         out,
-        "{shots} shots of {:.2} s: {median:.1} us of processor time each (median; mean {mean:.1}, \
-         99 % below {p99:.1}); {:.0} events and {:.0} steps a shot",
-        summary.simulated_s_per_shot, summary.events_per_shot, summary.steps_per_shot
+        "{:<6} {} shots of {:.2} s: {mean:.1} us of processor time each (mean; median {median:.1}, \
+         99 % below {p99:.1})",
+        report.group, report.shots, report.simulated_s_per_shot
     )?;
-    Ok(Status::Success)
+    let n = report.shots as f64;
+    let each = |count: u64| count as f64 / n;
+    let work = &report.work;
+    writeln!(
+        out,
+        "       a shot: {:.1} events, {:.3} us each; {:.1} contacts, {:.1} steps, {:.1} pair and \
+         {:.1} face tests",
+        report.events_per_shot,
+        report.us_per_event.unwrap_or(0.0),
+        each(work.contacts),
+        each(work.steps),
+        each(work.pair_tests),
+        each(work.face_tests)
+    )?;
+    if let Some(reference) = &report.fixed_step {
+        let Spread { mean, median, .. } = reference.cpu_us_per_shot;
+        writeln!(
+            out,
+            "       fixed-step, same shots: {mean:.1} us (mean; median {median:.1}), {:.0} steps; \
+             {:.1} times as long",
+            reference.steps_per_shot, reference.ratio
+        )?;
+    }
+    Ok(())
 }

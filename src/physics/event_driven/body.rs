@@ -35,9 +35,6 @@ pub struct Body {
     pub ball: Ball,
     /// How it moves now.
     pub segment: Segment,
-    /// Speed at the start of its segment [m/s], and size of its acceleration [m/s²]: how far it may
-    /// come without a look at the path.
-    haste: (f64, f64),
     /// How it moved before; somebody may look a little back.
     before: Segment,
     /// Where it is in the game's sense.
@@ -48,8 +45,6 @@ pub struct Body {
     pub held: SmallVec<[Feature; 2]>,
     /// What ends its segment.
     pub own: Own,
-    /// When it meets another ball first, and which.
-    pub pair: (Seconds, usize),
     /// What is told next, and when.
     pub report: (Seconds, Report),
     /// Its base is on the head string or behind it, and has not crossed since.
@@ -70,12 +65,6 @@ pub struct Body {
     pub target_j: f64,
 }
 
-fn haste(segment: &Segment) -> (f64, f64) {
-    // On a spring it may come anywhere.
-    let swings = if segment.swing.is_some() { f64::INFINITY } else { 0.0 };
-    (segment.velocity.length() + swings, segment.acceleration.length())
-}
-
 impl Body {
     /// A ball in the given state.
     pub fn new(ball: Ball, state: &BallState) -> Self {
@@ -89,13 +78,11 @@ impl Body {
         Body {
             ball,
             segment,
-            haste: haste(&segment),
             before: segment,
             place: state.place,
             placed: (state.place, 0.0),
             held: SmallVec::new(),
             own: Own::Ends(f64::INFINITY),
-            pair: (f64::INFINITY, 0),
             report: (f64::INFINITY, Report::HeadString),
             behind: false,
             clear_rails: 0,
@@ -147,9 +134,9 @@ impl Body {
         }
     }
 
-    /// When anything happens to it [s].
-    pub fn next_s(&self) -> Seconds {
-        self.own_s().min(self.pair.0).min(self.report.0)
+    /// When anything happens to it that no other ball has a part in [s].
+    pub fn alone_s(&self) -> Seconds {
+        self.own_s().min(self.report.0)
     }
 
     /// Speed, or speed of its skin if it spins faster, at `at` [m/s].
@@ -162,13 +149,6 @@ impl Body {
     pub fn turn_into(&mut self, segment: Segment) {
         self.before = self.segment;
         self.segment = segment;
-        self.haste = haste(&segment);
-    }
-
-    /// No longer way than its centre can go from `at` on for `horizon` [m].
-    pub fn reach_m(&self, at: Seconds, horizon: Seconds) -> f64 {
-        let (speed, pull) = self.haste;
-        (speed + pull * (at - self.segment.start_s + 0.5 * horizon)) * horizon
     }
 
     /// Changes where it is in the game's sense.
@@ -185,14 +165,14 @@ impl Body {
         segment.state(self.ball.id, place, at.max(segment.start_s))
     }
 
-    /// Adds everything that decides its future to `hash`.
-    pub fn hash(&self, hash: &mut StateHash) {
+    /// Adds everything that decides its future to `hash`; it meets another ball at `pair_s`.
+    pub fn hash(&self, pair_s: Seconds, hash: &mut StateHash) {
         hash.u64(u64::from(self.ball.id.0));
         hash.u64(self.place as u64);
         let rails = u64::from(self.clear_rails) << 8 | u64::from(self.held_rails);
         hash.u64(rails << 1 | u64::from(self.behind));
         self.segment.hash(hash);
-        hash.f64(self.pair.0);
+        hash.f64(pair_s);
         hash.f64(self.own_s());
     }
 }

@@ -20,15 +20,16 @@ impl EventDriven {
         let mut members = Changed::from_slice(partners);
         let mut place = 0;
         while place < members.len() {
-            let body = &self.bodies[members[place]];
-            let (centre, radius) = (body.segment.position_at(at), body.ball.radius_m);
-            for (other, it) in self.bodies.iter().enumerate() {
-                if !it.solid() || members.contains(&other) {
-                    continue;
-                }
-                let reach = radius + it.ball.radius_m + tolerance::CLUSTER_M;
-                let apart = it.segment.position_at(at) - centre;
-                if apart.length_squared() <= reach * reach {
+            let (centre, radius) = {
+                let index = members[place];
+                (self.centre_at(index, at), self.paths[index].radius_m)
+            };
+            for (other, it) in self.paths.iter().enumerate() {
+                let reach = radius + it.radius_m + tolerance::CLUSTER_M;
+                if it.solid
+                    && self.centre_at(other, at).distance_squared(centre) <= reach * reach
+                    && !members.contains(&other)
+                {
                     members.push(other);
                 }
             }
@@ -76,7 +77,8 @@ impl EventDriven {
             let body = &self.bodies[*index];
             let centre = body.segment.position_at(at);
             let own = if *index == meets { &met[..] } else { &[] };
-            let near = self.terrain.near(centre, body.ball.radius_m + TOUCH_M);
+            let on_main = body.held.len() == 1 && body.held[0] == self.terrain.main_patch();
+            let near = self.terrain.near_but(centre, body.ball.radius_m + TOUCH_M, on_main);
             let near = near
                 .iter()
                 .filter(|(feature, _, _)| {

@@ -35,11 +35,8 @@ impl EventDriven {
         let mut touched = Touched::new();
         let main = self.terrain.main_patch();
         let on_main = body.held.len() == 1 && body.held[0] == main || met == Some(main);
-        let alone = !self.terrain.block_at(self.terrain.place_of(centre), on_main).lists();
-        if alone && self.terrain.planes.is_empty() {
-            return touched;
-        }
-        for (feature, normal, _) in self.terrain.near(centre, body.ball.radius_m + TOUCH_M) {
+        let reach = body.ball.radius_m + TOUCH_M;
+        for (feature, normal, _) in self.terrain.near_but(centre, reach, on_main) {
             let apart =
                 but.iter().all(|other| other.dot(normal) < 1.0 - tolerance::SAME_NORMAL * 1e3);
             let closes = mover.velocity.dot(normal) < -tolerance::CLOSING_M_S;

@@ -174,6 +174,9 @@ impl EventDriven {
             contacts.push(found);
         }
         let pairs = self.leaning_pairs(group);
+        for (a, b, normal) in &pairs {
+            self.lay_apart(*a, *b, *normal);
+        }
 
         // Who is free of it?
         let mut stay: Changed = Changed::new();
@@ -247,8 +250,10 @@ impl EventDriven {
             let from = body.segment;
             let energy = start.kinetic_j()
                 + body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
-            let pulled = body.ball.spring.is_some();
-            body.target_j = if pulled { f64::INFINITY } else { energy - lost[place] };
+            // What leans on other balls hands them energy; a spring does as well.
+            let leans = pairs.iter().any(|(a, b, _)| a == index || b == index);
+            let hands_on = leans || body.ball.spring.is_some();
+            body.target_j = if hands_on { f64::INFINITY } else { energy - lost[place] };
             body.held = kept[place].iter().map(|(feature, _, _)| *feature).collect();
             if moved > tolerance::REST_M_S {
                 body.quiet_since = at;
@@ -317,6 +322,12 @@ impl EventDriven {
         let body = &self.bodies[index];
         let (mass, g) = (body.ball.mass_kg, self.parameters.gravity_m_s2);
         let before = Mover::new(&body.ball, body.segment.velocity, body.segment.angular_velocity);
+        // It rises no more than its motion can pay for.
+        let rise = centre - body.segment.position;
+        let cost = mass * g * rise.z;
+        if cost > before.kinetic_j() {
+            centre = body.segment.position + rise * (before.kinetic_j() / cost);
+        }
         let kinetic = Mover { velocity, ..before }.kinetic_j();
         let wanted = body.target_j - mass * g * centre.z;
         let mut factor = 1.0;
@@ -340,6 +351,26 @@ impl EventDriven {
         body.segment.velocity = velocity;
         body.segment.angular_velocity = spin;
         contacts
+    }
+
+    /// Takes back by how much two balls were pressed together, each by its share, on the level so
+    /// that no energy appears.
+    fn lay_apart(&mut self, a: usize, b: usize, normal: DVec3) {
+        let (one, two) = (&self.bodies[a], &self.bodies[b]);
+        let distance = one.segment.position.distance(two.segment.position);
+        let depth = one.ball.radius_m + two.ball.radius_m - distance;
+        let level = normal.with_z(0.0);
+        let square = level.length_squared();
+        let share = |body: &super::Body| {
+            if body.ball.flags.integrate { 1.0 / body.ball.mass_kg } else { 0.0 }
+        };
+        let (p, q) = (share(one), share(two));
+        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || p + q == 0.0 {
+            return;
+        }
+        let out = level * (depth / square / (p + q));
+        self.bodies[a].segment.position += out * p;
+        self.bodies[b].segment.position -= out * q;
     }
 
     /// Pairs of a group that lean on each other.

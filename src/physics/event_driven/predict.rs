@@ -4,15 +4,19 @@
 //! earlier of both own events: beyond it their paths are not known. After an event only balls whose
 //! segment changed are predicted again, and those whose earliest partner was one of them.
 
+use super::EventDriven;
 use super::body::{Own, Report};
 use super::closing::{self, Relative};
+use super::path::Path;
 use super::segment::Course;
 use super::sweep;
-use super::{EventDriven, Segment};
 use crate::physics::tolerance;
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
+
+/// More than what rounding takes off a distance.
+const ROUGH: f64 = 1.0 + 1e-9;
 
 /// Balls that an event changed.
 pub(super) type Changed = SmallVec<[usize; 16]>;
@@ -30,15 +34,19 @@ impl EventDriven {
         self.begin_pieces(at, &mut changed);
         for index in &changed {
             self.predict_own(at, *index);
-            self.bodies[*index].pair = (f64::INFINITY, 0);
+            self.paths[*index] = Path::of(&self.bodies[*index]);
+            self.pairs[*index] = (f64::INFINITY, 0);
         }
         // Whoever waited for one of them looks for somebody else.
         let mut stale: Changed = SmallVec::new();
-        for (index, body) in self.bodies.iter_mut().enumerate() {
-            if body.pair.0.is_finite() && changed.contains(&body.pair.1) {
-                body.pair = (f64::INFINITY, 0);
+        for (index, pair) in self.pairs.iter_mut().enumerate() {
+            if pair.0.is_finite() && changed.contains(&pair.1) {
+                *pair = (f64::INFINITY, 0);
                 stale.push(index);
             }
+        }
+        for index in changed.iter().chain(&stale) {
+            self.next[*index] = self.bodies[*index].alone_s();
         }
         for (place, index) in changed.iter().enumerate() {
             self.predict_pairs(at, *index, |other| !changed[..place].contains(&other));
@@ -49,47 +57,40 @@ impl EventDriven {
             });
         }
         self.predict_tip(at, &changed);
-        for index in 0..self.bodies.len() {
-            self.next[index] = self.bodies[index].next_s();
-        }
     }
 
     fn predict_own(&mut self, at: Seconds, index: usize) {
-        let terrain = self.terrain.clone();
-        let body = &mut self.bodies[index];
+        let EventDriven { terrain, bodies, work, .. } = self;
+        let body = &mut bodies[index];
         body.report = (f64::INFINITY, Report::HeadString);
         if !body.in_play() {
             body.own = Own::Ends(f64::INFINITY);
             return;
         }
-        let segment = body.segment;
+        let segment = &body.segment;
         // A lasting ball's piece ends with the step of all of them.
         let end_s = if segment.course == Course::Lasting { f64::INFINITY } else { segment.end_s };
         body.own = Own::Ends(end_s);
+        work.flights += u64::from(segment.course == Course::Flying);
+        let spins =
+            segment.spin_deceleration > 0.0 && segment.angular_velocity.dot(segment.normal) != 0.0;
+        work.spins += u64::from(spins);
         if body.ball.flags.collide && !body.stands() {
             let until = segment.end_s.min(at + 1e4);
-            let met = sweep::first_meeting(
-                &terrain,
-                &segment,
-                body.ball.radius_m,
-                at,
-                until,
-                &body.held,
-                &mut self.work,
-            );
+            let radius = body.ball.radius_m;
+            let met = sweep::first_meeting(terrain, segment, radius, at, until, &body.held, work);
             if let Some(meeting) = met {
                 body.own = Own::Meets(meeting);
             }
         }
         if let Some(head) = terrain.head_string_x() {
-            let body = &mut self.bodies[index];
             body.behind |= body.segment.position_at(at).x < head - tolerance::PUSH_OUT_M;
         }
         self.bodies[index].report = self.next_report(at, index);
     }
 
     /// The next thing that is only told: the head string, or sinking below the bed.
-    pub(super) fn next_report(&self, after: Seconds, index: usize) -> (Seconds, Report) {
+    pub(super) fn next_report(&mut self, after: Seconds, index: usize) -> (Seconds, Report) {
         let body = &self.bodies[index];
         let none = (f64::INFINITY, Report::HeadString);
         let Some(head) = self.terrain.head_string_x() else { return none };
@@ -110,9 +111,10 @@ impl EventDriven {
         }
         let radius = body.ball.radius_m;
         let sinks = !self.terrain.pockets.is_empty()
-            && matches!(segment.course, Course::Flying | Course::Lasting);
+            && matches!(segment.course, Course::Flying | Course::Lasting)
+            && x.z > -radius + tolerance::PUSH_OUT_M;
+        self.work.pocket_tests += u64::from(sinks);
         if sinks
-            && x.z > -radius + tolerance::PUSH_OUT_M
             && let Some(time) = closing::falling_quadratic(x.z + radius, v.z, a.z, horizon)
             && after + time < best.0
         {
@@ -122,39 +124,35 @@ impl EventDriven {
     }
 
     fn predict_pairs(&mut self, at: Seconds, index: usize, wanted: impl Fn(usize) -> bool) {
-        if !self.bodies[index].solid() {
+        let own = self.paths[index];
+        if !own.solid {
             return;
         }
-        let own: Segment = self.bodies[index].segment;
-        let stands = self.bodies[index].stands();
-        let (position, velocity) = (own.position_at(at), own.velocity_at(at));
-        let radius = self.bodies[index].ball.radius_m;
-        let own_s = self.bodies[index].own_s().min(own.end_s);
-        let moves = self.bodies[index].ball.flags.integrate;
-        for other in 0..self.bodies.len() {
-            let body = &self.bodies[other];
-            if other == index || !body.solid() || !wanted(other) || stands && body.stands() {
+        let (position, velocity) = self.way_at(index, at);
+        for other in 0..self.paths.len() {
+            let path = &self.paths[other];
+            if other == index || !path.solid || own.stands && path.stands || !wanted(other) {
                 continue;
             }
-            let known = self.bodies[index].pair.0.max(body.pair.0);
-            let horizon = own_s.min(body.own_s()).min(body.segment.end_s).min(known) - at;
-            let start = position - body.segment.position_at(at);
-            let distance = radius + body.ball.radius_m;
+            let known = self.pairs[index].0.max(self.pairs[other].0);
+            let horizon = own.known_s.min(path.known_s).min(known) - at;
+            let distance = own.radius_m + path.radius_m;
             // A rough look at what both can reach spares most of the work while they hop.
-            let reach = self.bodies[index].reach_m(at, horizon) + body.reach_m(at, horizon);
-            let far = (distance + reach) * (1.0 + 1e-9);
-            if start.length_squared() > far * far {
+            let far = (distance + own.reach_m(at, horizon) + path.reach_m(at, horizon)) * ROUGH;
+            if (position - path.position_at(at)).length_squared() > far * far {
                 continue;
             }
-            let lasts = own.course == Course::Lasting && body.segment.course == Course::Lasting;
+            let (there, pace) = self.way_at(other, at);
             let motion = Relative {
-                offset: start,
-                velocity: velocity - body.segment.velocity_at(at),
-                acceleration: own.acceleration - body.segment.acceleration,
+                offset: position - there,
+                velocity: velocity - pace,
+                acceleration: own.acceleration - path.acceleration,
             };
             if motion.velocity == DVec3::ZERO && motion.acceleration == DVec3::ZERO
-                || !moves && !body.ball.flags.integrate
-                || lasts && start.length() - distance <= super::lasting::TOUCH_M
+                || !own.moves && !path.moves
+                || own.lasts
+                    && path.lasts
+                    && motion.offset.length() - distance <= super::lasting::TOUCH_M
             {
                 continue;
             }
@@ -163,11 +161,27 @@ impl EventDriven {
             let time = at + time;
             // The lower number breaks ties, so that the order of balls decides nothing else.
             for (one, two) in [(index, other), (other, index)] {
-                let pair = &mut self.bodies[one].pair;
+                let pair = &mut self.pairs[one];
                 if time < pair.0 || time == pair.0 && two < pair.1 {
                     *pair = (time, two);
+                    self.next[one] = self.next[one].min(time);
                 }
             }
         }
+    }
+
+    /// Position and velocity of a ball's centre [m, m/s].
+    fn way_at(&self, index: usize, at: Seconds) -> (DVec3, DVec3) {
+        let path = &self.paths[index];
+        if path.swings {
+            let segment = &self.bodies[index].segment;
+            return (segment.position_at(at), segment.velocity_at(at));
+        }
+        (path.position_at(at), path.velocity_at(at))
+    }
+
+    /// Centre of a ball [m].
+    pub(super) fn centre_at(&self, index: usize, at: Seconds) -> DVec3 {
+        self.way_at(index, at).0
     }
 }

@@ -125,7 +125,7 @@ impl EventDriven {
             }
         }
         self.bodies[index].report = self.next_report(at, index);
-        self.next[index] = self.bodies[index].next_s();
+        self.next[index] = self.bodies[index].alone_s().min(self.pairs[index].0);
     }
 
     /// A ball wholly below the bed inside a pocket and too slow to come back is down; one below
@@ -193,7 +193,8 @@ impl EventDriven {
 
     /// Notices that everything has come to rest, or moves again.
     pub(super) fn watch_rest(&mut self) {
-        let still = self.bodies.iter().all(Body::is_still);
+        debug_assert!(self.bodies.iter().zip(&self.paths).all(|(b, p)| b.is_still() == p.still));
+        let still = self.paths.iter().all(|path| path.still);
         if !still {
             self.moved = true;
             self.rest_since = None;
@@ -349,19 +350,16 @@ impl EventDriven {
     /// Wakes balls that lean on one that has changed.
     pub(super) fn wake_neighbours(&mut self, at: Seconds, changed: &[usize]) {
         let mut woken = predict::Changed::new();
-        for index in 0..self.bodies.len() {
-            let body = &self.bodies[index];
-            let leans = body.leans
-                && body.solid()
-                && body.segment.course == Course::Rest
-                && !changed.contains(&index);
+        for (index, path) in self.paths.iter().enumerate() {
+            if !path.leans || !path.solid || changed.contains(&index) {
+                continue;
+            }
             let near = |other: &usize| {
-                let one = body.segment.position_at(at);
-                let two = self.bodies[*other].segment.position_at(at);
-                let reach = body.ball.radius_m + self.bodies[*other].ball.radius_m;
-                one.distance(two) <= reach + super::lasting::TOUCH_M * 10.0
+                let apart = self.centre_at(index, at).distance(self.centre_at(*other, at));
+                let reach = path.radius_m + self.paths[*other].radius_m;
+                apart <= reach + super::lasting::TOUCH_M * 10.0
             };
-            if leans && changed.iter().any(near) {
+            if changed.iter().any(near) {
                 woken.push(index);
             }
         }

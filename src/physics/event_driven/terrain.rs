@@ -170,6 +170,8 @@ pub struct Terrain {
     origin: DVec3,
     /// Size of the smallest cells [m].
     cell_m: DVec3,
+    /// 1 over it [1/m].
+    inverse_cell: DVec3,
     /// How many of them there are along each axis.
     count: IVec3,
     /// Cells: first the coarse ones in order, then their parts.
@@ -287,6 +289,17 @@ impl Terrain {
     /// Everything no farther than `reach_m` from `centre`: feature, unit normal towards the centre,
     /// distance [m]; one of each direction, in a fixed order.
     pub fn near(&self, centre: DVec3, reach_m: f64) -> SmallVec<[(Feature, DVec3, f64); 4]> {
+        self.near_but(centre, reach_m, false)
+    }
+
+    /// The same; if `but_main` says that nobody wants to hear of the main patch, it may be left
+    /// out, which is quick where nothing else is in reach.
+    pub fn near_but(
+        &self,
+        centre: DVec3,
+        reach_m: f64,
+        but_main: bool,
+    ) -> SmallVec<[(Feature, DVec3, f64); 4]> {
         let mut found: SmallVec<[(Feature, DVec3, f64); 4]> = SmallVec::new();
         let mut note = |feature: Feature, normal: DVec3, distance: f64| {
             let same = |(_, other, _): &(Feature, DVec3, f64)| {
@@ -303,7 +316,7 @@ impl Terrain {
         if !self.has_mesh() {
             return found;
         }
-        let block = self.block_at(self.place_of(centre), false);
+        let block = self.block_at(self.place_of(centre), but_main);
         for group in self.groups_in(&block) {
             let patch = &self.patches[group.patch as usize];
             let height = patch.normal.dot(centre) - patch.offset;

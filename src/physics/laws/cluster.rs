@@ -96,26 +96,61 @@ struct Active {
     tangential_impulse: DVec3,
 }
 
+/// The balls with a contact that closes.
+#[derive(Default)]
+struct Struck {
+    any: bool,
+    /// A bit for each of the first balls; one beyond them counts as struck.
+    bits: u64,
+}
+
+impl Struck {
+    fn note(&mut self, touch: &Touch) {
+        self.any = true;
+        let bit = |ball: usize| if ball < 64 { 1 << ball } else { 0 };
+        self.bits |= bit(touch.a) | touch.b.map_or(0, bit);
+    }
+
+    fn has(&self, ball: usize) -> bool {
+        64 <= ball || self.bits >> ball & 1 == 1
+    }
+}
+
 /// Resolves all contacts of a cluster. Returns whether none closes any more.
 pub fn resolve(movers: &mut [Mover], touches: &mut [Touch]) -> bool {
     let mut active: Vec<Active> = Vec::with_capacity(touches.len());
+    let mut slips: Vec<DVec3> = Vec::with_capacity(touches.len());
     for round in 0..2 * tolerance::CLUSTER_ROUNDS {
         let elastic = round < tolerance::CLUSTER_ROUNDS;
         active.clear();
-        let mut closes = false;
-        for (index, touch) in touches.iter().enumerate() {
-            let slip = touch.slip(movers);
+        slips.clear();
+        slips.extend(touches.iter().map(|touch| touch.slip(movers)));
+        let mut struck = Struck::default();
+        for (touch, slip) in touches.iter().zip(&slips) {
+            if slip.dot(touch.normal) < -tolerance::CLOSING_M_S {
+                struck.note(touch);
+            }
+            // A ball that carries another passes on what strikes it.
+            if touch.carries && touch.b.is_some() {
+                struck.bits = u64::MAX;
+            }
+        }
+        if !struck.any {
+            return true;
+        }
+        for (index, (touch, slip)) in touches.iter().zip(&slips).enumerate() {
             let approach = slip.dot(touch.normal);
             let closing = approach < -tolerance::CLOSING_M_S;
-            closes |= closing;
+            // What carries a ball that nothing strikes has nothing to answer.
+            let acts = closing || touch.carries && struck.has(touch.a);
             let (normal_compliance, tangential_compliance) = touch.compliance(movers);
-            if (closing || touch.carries) && normal_compliance > 0.0 {
+            if acts && normal_compliance > 0.0 {
                 let bounces = elastic && touch.sticky_m_s < -approach;
                 let restitution = if bounces { touch.restitution } else { 0.0 };
                 let target = if touch.carries { 0.0 } else { -restitution * approach };
                 active.push(Active {
                     index,
-                    slip,
+                    slip: *slip,
                     target,
                     normal_compliance,
                     tangential_compliance,
@@ -123,9 +158,6 @@ pub fn resolve(movers: &mut [Mover], touches: &mut [Touch]) -> bool {
                     tangential_impulse: DVec3::ZERO,
                 });
             }
-        }
-        if !closes {
-            return true;
         }
         if !solve_one_ball(movers, touches, &mut active) {
             solve_round(movers, touches, &mut active);

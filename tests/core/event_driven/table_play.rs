@@ -7,11 +7,14 @@ use hapticbillard::ball::BallPlace;
 use hapticbillard::events::{Fact, FactKind, FactSet};
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::{Simulation, Strike};
+use std::sync::OnceLock;
 
 /// A ball shot from a place in a direction.
 fn shot(from: DVec2, velocity: DVec3, spin: DVec3) -> (Simulation, Vec<Fact>) {
     let balls = [on_bed(0, from.x, from.y, velocity, spin)];
-    let mut simulation = world(pool(), &balls, &exact());
+    static START: OnceLock<Simulation> = OnceLock::new();
+    let start = START.get_or_init(|| world(pool(), &balls, &exact()));
+    let mut simulation = start.with_balls(balls.to_vec()).unwrap();
     let mut facts = Vec::new();
     simulation.advance(60.0, FactSet::NONE, &mut facts).unwrap();
     assert!(simulation.is_still(), "{from} {velocity}");

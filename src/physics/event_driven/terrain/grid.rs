@@ -63,7 +63,8 @@ impl Space {
 impl Terrain {
     pub(super) fn fill_grid(&mut self, radius_m: f64) {
         self.radius_m = radius_m;
-        if self.triangles.is_empty() {
+        // Without balls nothing is ever met.
+        if self.triangles.is_empty() || radius_m <= 0.0 {
             return;
         }
         let reach = DVec3::splat(radius_m * 1.001 + 1e-6);
@@ -82,6 +83,7 @@ impl Terrain {
         self.origin = low;
         self.count = cells(side) << CUTS;
         self.cell_m = size / self.count.as_dvec3();
+        self.inverse_cell = self.count.as_dvec3() / size;
 
         let cells = self.list_parts();
         self.find_leaps(&cells);
@@ -253,10 +255,10 @@ impl Terrain {
 
     /// The smallest cell that holds `point`; outside of the grid its coordinates do not exist.
     pub fn place_of(&self, point: DVec3) -> IVec3 {
-        ((point - self.origin) / self.cell_m)
-            .floor()
-            .clamp(DVec3::splat(-2.0), self.count.as_dvec3() + 1.0)
-            .as_ivec3()
+        let place = (point - self.origin) * self.inverse_cell;
+        let place = place.clamp(DVec3::splat(-2.0), self.count.as_dvec3() + 1.0);
+        // To the left of zero the whole part is not what is cut off.
+        (place + 2.0).as_ivec3() - 2
     }
 
     /// The largest block around `place` that is known to have the same things in reach of a ball,
