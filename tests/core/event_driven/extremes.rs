@@ -161,7 +161,6 @@ fn dead_and_lossless_contacts_are_borne() {
     for restitution in [0.0, 1.0] {
         for friction in [0.0, 0.2, 1.0] {
             let mut world = with(pool(), &break_shot(0.0), &exact(), change(restitution, friction));
-            eprintln!("{restitution} {friction}");
             to_rest(&mut world, 200.0);
             in_balance(&world);
         }
