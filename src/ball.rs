@@ -148,3 +148,18 @@ pub struct BallState {
     /// Where it is in the game's sense.
     pub place: BallPlace,
 }
+
+impl BallState {
+    /// A ball at rest on the table, its centre at `position` [m].
+    pub fn at_rest(id: BallId, position: DVec3) -> Self {
+        BallState {
+            id,
+            position,
+            velocity: DVec3::ZERO,
+            angular_velocity: DVec3::ZERO,
+            orientation: DQuat::IDENTITY,
+            motion: Motion::Rest,
+            place: BallPlace::OnTable,
+        }
+    }
+}

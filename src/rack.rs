@@ -4,10 +4,10 @@
 //! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
 //! exists nor has a unique break.
 
-use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ball::{Ball, BallPlace, BallState};
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
-use glam::{DQuat, DVec2, DVec3};
+use glam::DVec2;
 use rand::{Rng, SeedableRng, seq::SliceRandom};
 use rand_pcg::Pcg64Mcg;
 
@@ -139,15 +139,7 @@ fn places<'a>(rows: &'a [u16], bed: &Bed) -> impl Iterator<Item = DVec2> + 'a {
 
 /// A ball at rest on the cloth.
 fn standing(ball: Ball, place: DVec2) -> (Ball, BallState) {
-    let state = BallState {
-        id: ball.id,
-        position: place.extend(ball.radius_m),
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        motion: Motion::Rest,
-        place: BallPlace::OnTable,
-    };
+    let state = BallState::at_rest(ball.id, place.extend(ball.radius_m));
     (ball, state)
 }
 

@@ -3,11 +3,11 @@
 //! The cue ball is already on its way, so that solvers and other programs start from the same
 //! numbers whatever they think of cues.
 
-use crate::ball::{Ball, BallPlace, BallState, Motion, POOL_RADIUS_M};
+use crate::ball::{Ball, BallState, Motion, POOL_RADIUS_M};
 use crate::ids::BallId;
 use crate::rack::{Rack, RackError};
 use crate::table::{Bed, Table};
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use rand::{Rng, RngExt};
 
 /// Balls, and how they move at the start.
@@ -89,14 +89,6 @@ fn anywhere(bed: &Bed, random: &mut impl Rng) -> DVec2 {
 
 fn at_rest(id: u16, place: DVec2) -> (Ball, BallState) {
     let ball = Ball::pool(BallId(id));
-    let state = BallState {
-        id: ball.id,
-        position: place.extend(ball.radius_m),
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        motion: Motion::Rest,
-        place: BallPlace::OnTable,
-    };
+    let state = BallState::at_rest(ball.id, place.extend(ball.radius_m));
     (ball, state)
 }

@@ -1,10 +1,10 @@
 //! One shot of many from the same start, as a line of a file says it.
 
 use super::{PhysicsError, Shot, Simulation, Strike};
-use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ball::{Ball, BallState};
 use crate::ids::BallId;
 use crate::one_line::without_place;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use serde::Deserialize;
 
 /// One shot of a batch.
@@ -57,13 +57,9 @@ impl PlacedBall {
         let of_start = known.iter().find(|(ball, _)| ball.id == self.id);
         let ball = of_start.map_or_else(|| Ball::pool(self.id), |(ball, _)| ball.clone());
         let state = BallState {
-            id: self.id,
-            position: DVec3::from_array(self.position_m),
             velocity: DVec3::from_array(self.velocity_m_s),
             angular_velocity: DVec3::from_array(self.angular_velocity_rad_s),
-            orientation: DQuat::IDENTITY,
-            motion: Motion::Rest,
-            place: BallPlace::OnTable,
+            ..BallState::at_rest(self.id, DVec3::from_array(self.position_m))
         };
         (ball, state)
     }

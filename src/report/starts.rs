@@ -2,14 +2,14 @@
 //! of several starts lie elsewhere in their steps.
 
 use super::answers;
-use crate::ball::{Ball, BallFlags, BallPlace, BallState, Motion, POOL_RADIUS_M, Spring};
+use crate::ball::{Ball, BallFlags, BallState, POOL_RADIUS_M, Spring};
 use crate::ids::{BallId, Rail};
 use crate::mesh::Surface;
 use crate::physics::sample_shots::{self, Start};
 use crate::physics::{Contact, Parameters};
 use crate::table::{Bed, Plane, Table};
 use crate::units::Seconds;
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -23,15 +23,8 @@ const DAMPING: f64 = 0.02;
 
 /// A pool ball.
 pub(super) fn ball(id: u16, position: DVec3, velocity: DVec3, spin: DVec3) -> (Ball, BallState) {
-    let state = BallState {
-        id: BallId(id),
-        position,
-        velocity,
-        angular_velocity: spin,
-        orientation: DQuat::IDENTITY,
-        motion: Motion::Rest,
-        place: BallPlace::OnTable,
-    };
+    let state =
+        BallState { velocity, angular_velocity: spin, ..BallState::at_rest(BallId(id), position) };
     (Ball::pool(BallId(id)), state)
 }
 

@@ -4,13 +4,13 @@ use super::error::{Trouble, unsupported};
 use super::observed::{Observations, Observed};
 use super::setup::Setup;
 use super::shapes::BreakScene;
-use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ball::{Ball, BallState};
 use crate::events::{FactSet, Topic};
 use crate::ids::BallId;
 use crate::physics::{Equipment, PhysicsSettings, Simulation, SolverKind};
 use crate::shipped;
 use crate::table::{Table, TableParameters};
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 pub(super) fn parameter(setup: &Setup<'_>) -> Result<Observations, Trouble> {
     let parameters = match &*setup.word("profile")? {
@@ -104,14 +104,5 @@ fn narrow_tests(setup: &Setup<'_>, scene: &BreakScene) -> Result<f64, Trouble> {
 fn at(scene: &BreakScene, place: usize, position: DVec3) -> (Ball, BallState) {
     let id = BallId(place as u16);
     let ball = Ball { radius_m: scene.ball_radius_m, ..Ball::pool(id) };
-    let state = BallState {
-        id,
-        position: position.with_z(scene.ball_radius_m),
-        velocity: DVec3::ZERO,
-        angular_velocity: DVec3::ZERO,
-        orientation: DQuat::IDENTITY,
-        motion: Motion::Rest,
-        place: BallPlace::OnTable,
-    };
-    (ball, state)
+    (ball, BallState::at_rest(id, position.with_z(scene.ball_radius_m)))
 }

@@ -1,7 +1,7 @@
 //! Scenes that several physics tests share.
 
-use glam::{DQuat, DVec3};
-use hapticbillard::ball::{Ball, BallPlace, BallState, Motion};
+use glam::DVec3;
+use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::events::{Fact, FactSet};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, Rail};
@@ -17,15 +17,8 @@ pub const R: f64 = 0.028575;
 
 /// A pool ball in the given state.
 pub fn ball(id: u16, position: DVec3, velocity: DVec3, spin: DVec3) -> (Ball, BallState) {
-    let state = BallState {
-        id: BallId(id),
-        position,
-        velocity,
-        angular_velocity: spin,
-        orientation: DQuat::IDENTITY,
-        motion: Motion::Rest,
-        place: BallPlace::OnTable,
-    };
+    let state =
+        BallState { velocity, angular_velocity: spin, ..BallState::at_rest(BallId(id), position) };
     (Ball::pool(BallId(id)), state)
 }
 
