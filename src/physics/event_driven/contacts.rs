@@ -342,15 +342,28 @@ impl EventDriven {
         }
     }
 
-    /// How two balls that were pressed together part, each by its share, on the level.
+    /// How two balls that were pressed together part, each by its share, on the level so that no
+    /// energy appears; deeper than a press is none.
     pub(super) fn part(&self, at: Seconds, a: usize, b: usize, normal: DVec3) -> (DVec3, DVec3) {
+        self.laid_apart(at, a, b, normal, 2.0 * tolerance::PRESS_M)
+    }
+
+    /// The same for overlaps up to `deepest_m`.
+    pub(super) fn laid_apart(
+        &self,
+        at: Seconds,
+        a: usize,
+        b: usize,
+        normal: DVec3,
+        deepest_m: f64,
+    ) -> (DVec3, DVec3) {
         let (one, two) = (&self.bodies[a], &self.bodies[b]);
         let distance = one.segment.position_at(at).distance(two.segment.position_at(at));
         let depth = one.ball.radius_m + two.ball.radius_m - distance;
         let level = normal.with_z(0.0);
         let square = level.length_squared();
         let (p, q) = (one.mover(at).inverse_mass, two.mover(at).inverse_mass);
-        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || depth > 2.0 * tolerance::PRESS_M {
+        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || depth > deepest_m || p + q == 0.0 {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let out = level * (depth / square / (p + q));

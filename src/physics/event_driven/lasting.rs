@@ -175,7 +175,9 @@ impl EventDriven {
         }
         let pairs = self.leaning_pairs(group);
         for (a, b, normal) in &pairs {
-            self.lay_apart(*a, *b, *normal);
+            let (one, two) = self.laid_apart(at, *a, *b, *normal, f64::INFINITY);
+            self.bodies[*a].segment.position += one;
+            self.bodies[*b].segment.position += two;
         }
 
         // Who is free of it?
@@ -351,26 +353,6 @@ impl EventDriven {
         body.segment.velocity = velocity;
         body.segment.angular_velocity = spin;
         contacts
-    }
-
-    /// Takes back by how much two balls were pressed together, each by its share, on the level so
-    /// that no energy appears.
-    fn lay_apart(&mut self, a: usize, b: usize, normal: DVec3) {
-        let (one, two) = (&self.bodies[a], &self.bodies[b]);
-        let distance = one.segment.position.distance(two.segment.position);
-        let depth = one.ball.radius_m + two.ball.radius_m - distance;
-        let level = normal.with_z(0.0);
-        let square = level.length_squared();
-        let share = |body: &super::Body| {
-            if body.ball.flags.integrate { 1.0 / body.ball.mass_kg } else { 0.0 }
-        };
-        let (p, q) = (share(one), share(two));
-        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || p + q == 0.0 {
-            return;
-        }
-        let out = level * (depth / square / (p + q));
-        self.bodies[a].segment.position += out * p;
-        self.bodies[b].segment.position -= out * q;
     }
 
     /// Pairs of a group that lean on each other.
