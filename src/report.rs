@@ -19,10 +19,12 @@ pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
 pub use hop::{Form, Hop, hop};
 pub use idle::{Idle, idle};
-pub use method::{METHODS, Method, STEPS_MS};
-pub use order::{all_methods, fitted_order, on_the_front, orders};
+pub use method::{
+    IN_PARTS, INTEGRATORS, Method, STEPS_MS, SUB_STEPS, Tolerances, all_methods, stepping,
+};
+pub use order::{fitted_order, on_the_front, orders};
 pub use stability::{
     CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
     pieces_limit, rest_rows, spring_cell, spring_limit,
 };
-pub use trial::{Failure, Prepared, Row, Status, Track, judge, left_out};
+pub use trial::{Failure, Patience, Prepared, Row, Status, Track, judge, left_out};

@@ -67,6 +67,10 @@ pub struct SimulateArgs {
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
 
+    /// In place of the scene's parts of a step in which something happens.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub sub_steps: Option<u32>,
+
     /// Stops after so many simulated seconds.
     #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "until_rest")]
     pub until: Option<f64>,
@@ -114,6 +118,8 @@ pub enum IntegratorName {
     EulerCromer,
     /// Velocity Verlet.
     Verlet,
+    /// Verlet in its position form.
+    PositionVerlet,
     /// The classical Runge-Kutta method of fourth order.
     Rk4,
 }
@@ -143,10 +149,14 @@ fn override_physics(args: &SimulateArgs, physics: &mut PhysicsSettings) {
     if let Some(step_ms) = args.step_ms {
         physics.step_ms = step_ms;
     }
+    if let Some(sub_steps) = args.sub_steps {
+        physics.sub_steps = sub_steps;
+    }
     if let Some(integrator) = args.integrator {
         physics.integrator = match integrator {
             IntegratorName::EulerCromer => Integrator::EulerCromer,
             IntegratorName::Verlet => Integrator::Verlet,
+            IntegratorName::PositionVerlet => Integrator::PositionVerlet,
             IntegratorName::Rk4 => Integrator::Rk4,
         };
     }

@@ -3,7 +3,8 @@
 //! Time is cut into steps of h; grid time n is n·h, computed as `n · step_ms / 1000`, so that it is
 //! the double nearest to the decimal number and meets the ticks of the logical clock. A step is:
 //! commands, smooth forces and what carries the balls ([`smooth`]), contacts along the straight
-//! paths of the step ([`sweep`]), and what holds at its end ([`finish`]). Under `profile = "2009"`
+//! paths of the step ([`sweep`]), and what holds at its end ([`finish`]). A step in which something
+//! happens may be cut into parts ([`sub_steps`]). Under `profile = "2009"`
 //! the middle part is the paper's own ([`paper_step`]).
 //!
 //! A step is computed when time beyond its start is asked for; facts carry the exact time of the
@@ -22,6 +23,7 @@ pub(super) mod narrow;
 mod paper_step;
 mod smooth;
 pub mod spatial_hash;
+mod sub_steps;
 mod sweep;
 mod tell;
 
@@ -57,9 +59,13 @@ pub struct FixedStep {
     profile: Profile,
     integrator: Integrator,
     back_dating: bool,
+    /// Parts of a step in which something happens.
+    sub_steps: u32,
     step_ms: f64,
-    /// Length of a step [s].
+    /// Length of a step, or of the part in hand [s].
     h: Seconds,
+    /// When the step, or the part in hand, began [s].
+    begun: Seconds,
     /// All balls, in ascending order of id.
     bodies: Vec<Body>,
     cue: Option<CueMotion>,
@@ -70,6 +76,8 @@ pub struct FixedStep {
     pending: VecDeque<Fact>,
     /// Facts of the step in hand.
     told: Vec<Fact>,
+    /// A ball that slid begins to roll, or comes to rest, in the step in hand.
+    changes: bool,
     /// Pairs that touched and have not parted, in ascending order.
     touching: Vec<(usize, usize)>,
     /// Something moved since everything last settled.
@@ -136,6 +144,7 @@ impl FixedStep {
             50.0,
             "must lie between 1e-6 and 50",
         )?;
+        sub_steps::check(settings)?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
         let h = settings.step_ms / 1000.0;
@@ -145,14 +154,17 @@ impl FixedStep {
             profile: settings.profile,
             integrator: settings.integrator,
             back_dating: settings.contact_back_dating,
+            sub_steps: settings.sub_steps,
             step_ms: settings.step_ms,
             h,
+            begun: 0.0,
             bodies: Vec::new(),
             cue: None,
             step: 0,
             commands: VecDeque::new(),
             pending: VecDeque::new(),
             told: Vec::new(),
+            changes: false,
             touching: Vec::new(),
             moved: false,
             rest_since: None,
@@ -319,7 +331,20 @@ impl FixedStep {
 
     /// The whole step.
     fn one_step(&mut self) -> Result<(), PhysicsError> {
-        let start = self.grid(self.step);
+        let (start, end) = (self.grid(self.step), self.grid(self.step + 1));
+        if self.sub_steps > 1 {
+            self.try_step(start, end)?;
+        } else {
+            self.part(start, end)?;
+        }
+        self.step += 1;
+        self.watch_rest();
+        self.track();
+        Ok(())
+    }
+
+    /// A step, or one part of it.
+    fn part(&mut self, start: Seconds, end: Seconds) -> Result<(), PhysicsError> {
         self.work.steps += 1;
         self.begin(start);
 
@@ -328,20 +353,18 @@ impl FixedStep {
 
         // Contacts.
         match self.profile {
-            Profile::Standard => self.sweep(start),
+            Profile::Standard => self.sweep(start)?,
             Profile::Paper2009 => self.paper_contacts(start),
         }
 
         // Where everything is now, and what that means.
-        self.step += 1;
-        self.finish(start)?;
-        self.watch_rest();
-        self.track();
-        Ok(())
+        self.finish(start, end)
     }
 
     /// Remembers where each ball's path begins.
     fn begin(&mut self, start: Seconds) {
+        self.begun = start;
+        self.changes = false;
         for body in &mut self.bodies {
             body.knots.clear();
             if body.in_play() {
@@ -458,6 +481,10 @@ impl Solver for FixedStep {
             hash.vec3(body.velocity);
             hash.vec3(body.angular_velocity);
             hash.quat(body.orientation);
+            if self.integrator == Integrator::PositionVerlet {
+                hash.vec3(body.way.unwrap_or(DVec3::INFINITY));
+                hash.vec3(body.pushed);
+            }
         }
         if let Some(cue) = &self.cue {
             cue.guided.hash(hash);

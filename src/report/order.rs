@@ -1,6 +1,5 @@
 //! Orders of convergence, and who is best at what price.
 
-use super::method::Method;
 use super::trial::{Row, Status};
 use crate::physics::Work;
 
@@ -71,18 +70,4 @@ pub fn on_the_front(row: &Row, rows: &[Row]) -> bool {
         let better = off <= error && work <= own && (off < error || work < own);
         other.status != Status::Ok || !better
     })
-}
-
-/// All methods of a scene in the order of the table: event-driven, then each integrator from the
-/// coarsest step to the finest.
-pub fn all_methods() -> Vec<Method> {
-    let mut methods = Vec::new();
-    for integrator in super::METHODS {
-        match integrator {
-            None => methods.push(Method::EventDriven),
-            Some(integrator) => methods
-                .extend(super::STEPS_MS.map(|step_ms| Method::FixedStep { integrator, step_ms })),
-        }
-    }
-    methods
 }

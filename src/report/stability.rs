@@ -10,19 +10,22 @@ pub use springs::{Limit, RATIOS, STIFFNESSES, pieces_limit, spring_cell, spring_
 
 use super::method::Method;
 use super::starts::{self, R, on_bed};
+use super::trial::Patience;
 use crate::events::FactSet;
 use crate::ids::BallId;
 use crate::physics::{Integrator, PhysicsError, PhysicsSettings, Profile, Simulation};
 use crate::units::Seconds;
 use glam::DVec3;
 
-/// The methods of the table: the exact solver, each integrator at the paper's step, the paper's
-/// own at a finer one.
-pub const COLUMNS: [Method; 5] = [
+/// The methods of the table: the exact solver, each integrator at the paper's step, and the paper's
+/// own with sub-steps and at a finer one.
+pub const COLUMNS: [Method; 7] = [
     Method::EventDriven,
     Method::FixedStep { integrator: Integrator::EulerCromer, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::Verlet, step_ms: 4.0 },
+    Method::FixedStep { integrator: Integrator::PositionVerlet, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::Rk4, step_ms: 4.0 },
+    Method::SubSteps { integrator: Integrator::EulerCromer, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::EulerCromer, step_ms: 1.0 },
 ];
 
@@ -46,6 +49,8 @@ pub enum Class {
     Diverges,
     /// The method gave up and said why.
     GivesUp,
+    /// It took longer than it was given.
+    TooSlow,
 }
 
 impl Class {
@@ -57,6 +62,7 @@ impl Class {
             Class::Drifts => "drifts",
             Class::Diverges => "diverges",
             Class::GivesUp => "gives up",
+            Class::TooSlow => "too slow",
         }
     }
 }
@@ -70,7 +76,7 @@ pub struct Case {
     pub title: &'static str,
     /// What the number is.
     pub measures: &'static str,
-    pub(super) run: fn(Method) -> Result<Measured, PhysicsError>,
+    pub(super) run: fn(Method, Patience<'_>) -> Result<Measured, PhysicsError>,
 }
 
 /// Largest errors in the first and second half of a case, over the case's scale.
@@ -78,6 +84,8 @@ pub struct Case {
 pub(super) struct Measured {
     first: f64,
     second: f64,
+    /// When patience ended, if it did [s].
+    stopped_s: Option<Seconds>,
 }
 
 /// A cell of the table.
@@ -92,9 +100,9 @@ pub struct Cell {
 }
 
 impl Case {
-    /// The cell of a method.
-    pub fn cell(&self, method: Method) -> Cell {
-        Cell::of((self.run)(method))
+    /// The cell of a method, as long as `patience` lasts.
+    pub fn cell(&self, method: Method, patience: Patience<'_>) -> Cell {
+        Cell::of((self.run)(method, patience))
     }
 }
 
@@ -116,7 +124,9 @@ impl Cell {
 impl Measured {
     fn cell(self) -> Cell {
         let error = self.first.max(self.second);
-        let class = if !(error < APART) {
+        let class = if self.stopped_s.is_some() {
+            Class::TooSlow
+        } else if !(error < APART) {
             Class::Diverges
         } else if error <= EXACT {
             Class::Exact
@@ -125,13 +135,15 @@ impl Measured {
         } else {
             Class::Bounded
         };
-        Cell { class, error, note: String::new() }
+        let note = self.stopped_s.map(|at| format!("stopped at {at:.3} s")).unwrap_or_default();
+        Cell { class, error, note }
     }
 }
 
-/// Runs a world to `until_s` and takes the error at `looks` times; one that is no number counts as
+/// Runs a world, as long as `patience` lasts, to `until_s` and takes the error at `looks` times; one that is no number counts as
 /// infinite.
 fn measure(
+    patience: Patience<'_>,
     mut world: Simulation,
     until_s: Seconds,
     looks: u32,
@@ -141,6 +153,10 @@ fn measure(
     let mut facts = Vec::new();
     for look in 1..=looks {
         let at = until_s * f64::from(look) / f64::from(looks);
+        if !patience() {
+            measured.stopped_s = Some(world.now_s());
+            break;
+        }
         facts.clear();
         world.advance(at, FactSet::NONE, &mut facts)?;
         let now = error(&world, at).abs();

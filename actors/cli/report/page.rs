@@ -210,10 +210,8 @@ fn reading(scene: &Measured) -> String {
     let prepared = &scene.prepared;
     let rows = scene.plain();
     let mut sentences = Vec::new();
-    let orders: Vec<String> = report::METHODS
+    let orders: Vec<String> = report::stepping(1.0)
         .into_iter()
-        .flatten()
-        .map(|integrator| report::Method::FixedStep { integrator, step_ms: 1.0 })
         .map(|method| {
             let name = method.name();
             let fitted = report::fitted_order(&rows, name, FITTED_MS, prepared.reference_error_m);

@@ -1,5 +1,6 @@
 //! Measures the chapters on chaos and stability.
 
+use super::measure::budget;
 use hapticbillard::physics::{Integrator, PhysicsError};
 use hapticbillard::report::{self, Cell, Form, Growth, HertzRow, Hop, Limit, Method, RestRow};
 use hapticbillard_actors::error::Error;
@@ -15,6 +16,9 @@ pub const HERTZ_M_S: f64 = 5.0;
 pub const DROP: (f64, f64) = (0.1, 0.5);
 /// Steps of that drop [ms].
 pub const DROP_STEPS_MS: [f64; 3] = [4.0, 1.0, 0.25];
+
+/// What a cell may take [s].
+const CELL_S: f64 = 5.0;
 
 /// Everything of both chapters.
 pub struct Table {
@@ -71,17 +75,21 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
         }
     }
     for case in report::CASES {
+        let begin_dbg = std::time::Instant::now();
         rows.push(Line {
             id: case.id.to_string(),
             title: case.title.to_string(),
             measures: case.measures,
-            cells: report::COLUMNS.map(|method| (method, case.cell(method))).to_vec(),
+            cells: report::COLUMNS
+                .map(|method| (method, case.cell(method, &mut budget(CELL_S))))
+                .to_vec(),
         });
+        eprintln!("DBG {} {:?}", case.id, begin_dbg.elapsed());
         bar.inc(1);
     }
     let mut limits = Vec::new();
     for ratio in report::RATIOS {
-        for integrator in report::METHODS.into_iter().flatten() {
+        for integrator in report::INTEGRATORS {
             limits.push((integrator, ratio, report::spring_limit(integrator, ratio)?));
         }
     }

@@ -1,12 +1,13 @@
 //! Motion that has no closed form: a ball that turns about a rim, slides down a slope, is wedged
 //! between surfaces or leans on other balls.
 //!
-//! Only the balls concerned are stepped, all on one grid of [`tolerance::LASTING_STEP_S`]. A step
-//! takes every contact without restitution and with Coulomb's friction, solved jointly, and emits
-//! the quadratic through the velocities at both ends, so that detection, queue and impacts stay as
-//! they are. Normals turn within a step; what that adds or takes is put right by holding the energy
-//! of a ball that leans on nothing else to what friction leaves of it. Error: first order in the
-//! step for the moment of leaving a rim, second for its energy.
+//! Only the balls concerned are stepped, all on one grid of
+//! [`lasting_step_s`](crate::physics::ExactTolerances). A step takes every contact without
+//! restitution and with Coulomb's friction, solved jointly, and emits the quadratic through the
+//! velocities at both ends, so that detection, queue and impacts stay as they are. Normals turn
+//! within a step; what that adds or takes is put right by holding the energy of a ball that leans
+//! on nothing else to what friction leaves of it. Error: first order in the step for the moment of
+//! leaving a rim, second for its energy.
 
 use super::EventDriven;
 use super::motion::{self, Start};
@@ -62,7 +63,7 @@ impl EventDriven {
         if self.begins.is_empty() {
             return;
         }
-        let step = tolerance::LASTING_STEP_S;
+        let step = self.parameters.exact.lasting_step_s;
         let mut next = (libm::floor(at / step) + 1.0) * step;
         if next - at < 1e-9 {
             next += step;
@@ -149,7 +150,7 @@ impl EventDriven {
             self.check_finite(at, *index)?;
             self.cut_lasting(at, *index);
         }
-        let step = tolerance::LASTING_STEP_S;
+        let step = self.parameters.exact.lasting_step_s;
         let next = (libm::floor(at / step + 0.5) + 1.0) * step;
         self.pieces(at, &group, next);
         let lasts = |index: &usize| self.bodies[*index].segment.course == Course::Lasting;
@@ -306,7 +307,8 @@ impl EventDriven {
         }
         if let [(_, normal, _)] = contacts[..] {
             // Along the surface, if gravity holds it there.
-            let kick = -self.parameters.gravity_m_s2 * normal.z * tolerance::LASTING_STEP_S;
+            let kick =
+                -self.parameters.gravity_m_s2 * normal.z * self.parameters.exact.lasting_step_s;
             let out = velocity.dot(normal);
             if out + kick < 0.0 {
                 let along = velocity - normal * out;
