@@ -85,7 +85,7 @@ pub enum PhysicsError {
     },
     /// The contacts of one step come to no end.
     #[error(
-        "a hundred thousand contacts in the step at {time_s} s, the last of them of ball {ball}: \
+        "the contacts of the step at {time_s} s come to no end, the last of ball {ball}: \
          something is stuck there; use a smaller step, or solver = \"event-driven\""
     )]
     StuckInStep {

@@ -75,7 +75,6 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
         }
     }
     for case in report::CASES {
-        let begin_dbg = std::time::Instant::now();
         rows.push(Line {
             id: case.id.to_string(),
             title: case.title.to_string(),
@@ -84,7 +83,6 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
                 .map(|method| (method, case.cell(method, &mut budget(CELL_S))))
                 .to_vec(),
         });
-        eprintln!("DBG {} {:?}", case.id, begin_dbg.elapsed());
         bar.inc(1);
     }
     let mut limits = Vec::new();

@@ -55,9 +55,13 @@ impl Contact {
 /// Contacts that close more slowly are left to the next step.
 const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
 
-/// Contacts of one step beyond which something is stuck: a light ball between a wall and a ball of
-/// ten thousand times its mass, say, meets them without end once it has lost its restitution.
-const EVENTS_PER_STEP_MAX: u64 = 100_000;
+/// Contacts of one step, and more of them for each ball, beyond which something is stuck: a light
+/// ball between a wall and a ball of ten thousand times its mass, say, meets them without end once
+/// it has lost its restitution.
+const EVENTS_MAX: u64 = 10_000;
+
+/// See [`EVENTS_MAX`].
+const EVENTS_OF_A_BALL_MAX: u64 = 100;
 
 /// Contacts of a ball that differ by less, which is rounding, are at the same moment [s].
 const SAME_MOMENT_S: Seconds = 1e-12;
@@ -69,7 +73,7 @@ impl FixedStep {
     /// [`PhysicsError::StuckInStep`] if they come to no end.
     pub(super) fn sweep(&mut self, start: Seconds) -> Result<(), PhysicsError> {
         self.predict_all();
-        let most = self.work.events + EVENTS_PER_STEP_MAX;
+        let most = self.work.events + EVENTS_MAX + EVENTS_OF_A_BALL_MAX * self.bodies.len() as u64;
         while let Some(contact) = self.next_contact() {
             self.work.events += 1;
             if self.work.events > most {
