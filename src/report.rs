@@ -17,14 +17,14 @@ mod trial;
 
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
-pub use hop::{Form, Hop, hop};
+pub use hop::{Form, Hop, hop, solver_hop};
 pub use idle::{Idle, idle};
 pub use method::{
     IN_PARTS, INTEGRATORS, Method, STEPS_MS, SUB_STEPS, Tolerances, all_methods, stepping,
 };
-pub use order::{fitted_order, on_the_front, orders};
+pub use order::{computations, fitted_order, on_the_front, orders};
 pub use stability::{
-    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
-    pieces_limit, rest_rows, spring_cell, spring_limit,
+    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, WallRow,
+    hertz_rows, pieces_limit, rest_rows, spring_cell, spring_limit, wall_rows,
 };
 pub use trial::{Failure, Patience, Prepared, Row, Status, Track, judge, left_out};

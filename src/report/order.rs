@@ -54,8 +54,9 @@ pub fn fitted_order(
     Some(across / along)
 }
 
-/// Everything that was computed, added up.
-fn computations(work: Work) -> u64 {
+/// Everything that was computed, added up: events, tests, contacts, evaluations of forces, closed
+/// forms and looks.
+pub fn computations(work: Work) -> u64 {
     let looks = work.flights + work.spins + work.pocket_tests;
     work.events + work.tests() + work.contacts + work.force_evaluations + looks
 }

@@ -3,10 +3,12 @@
 mod cases;
 mod hertz;
 mod springs;
+mod wall;
 
 pub use cases::CASES;
 pub use hertz::{HertzRow, hertz_rows};
 pub use springs::{Limit, RATIOS, STIFFNESSES, pieces_limit, spring_cell, spring_limit};
+pub use wall::{WallRow, wall_rows};
 
 use super::method::Method;
 use super::starts::{self, R, on_bed};
@@ -197,6 +199,9 @@ pub fn rest_rows(lasts_s: Seconds) -> Result<Vec<RestRow>, PhysicsError> {
         ("Euler-Cromer 4 ms, 2009", paper(4.0)),
         ("Euler-Cromer 3.9 ms, 2009", paper(3.9)),
         ("Euler-Cromer 1 ms, 2009", paper(1.0)),
+        ("position Verlet 4 ms, 2009", {
+            PhysicsSettings { integrator: Integrator::PositionVerlet, ..paper(4.0) }
+        }),
     ] {
         let balls = vec![on_bed(0, 0.0, 0.0, DVec3::ZERO, DVec3::ZERO)];
         let mut world = Simulation::from_parts(&starts::cloth(), balls, &settings)?;
