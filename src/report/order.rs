@@ -62,11 +62,12 @@ pub fn computations(work: Work) -> u64 {
 }
 
 /// Whether no other row has a smaller or equal error for less computation, or a smaller one for as
-/// much.
+/// much. Other tolerances of the exact solver are the same method and do not count.
 pub fn on_the_front(row: &Row, rows: &[Row]) -> bool {
     let Some(error) = row.error_m else { return false };
     let own = computations(row.work);
-    rows.iter().all(|other| {
+    let others = rows.iter().filter(|other| other.method.step_ms().is_some());
+    others.into_iter().all(|other| {
         let (Some(off), work) = (other.error_m, computations(other.work)) else { return true };
         let better = off <= error && work <= own && (off < error || work < own);
         other.status != Status::Ok || !better

@@ -131,7 +131,7 @@ fn panel(
         .light_line_style(WHITE)
         .draw()
         .map_err(failed)?;
-    let of = |name: &str| measured.rows.iter().filter(move |t| t.row.method.name() == name);
+    let of = |name: &'static str| measured.rows.iter().filter(move |t| t.row.method.name() == name);
     for (method, colour) in LINES {
         let points: Vec<(f64, f64)> = of(method).filter_map(drawn).collect();
         let line = LineSeries::new(points, colour.filled().stroke_width(2)).point_size(3);

@@ -13,7 +13,7 @@ const ENOUGH_S: f64 = 2e-3;
 const REPEATS_MAX: usize = 20;
 /// What a row may take, at least one start included [s]; a quick report's, and else.
 const QUICK_ROW_S: f64 = 0.4;
-const ROW_S: f64 = 6.0;
+const ROW_S: f64 = 2.5;
 /// Most starts of a scene in a quick report.
 const QUICK_STARTS: usize = 3;
 

@@ -55,7 +55,7 @@ pub fn spring_cell(stiffness_n_m: f64, ratio: f64, method: Method) -> Cell {
         let product = omega * step_ms / 1000.0;
         let limit = theory(integrator, ratio);
         if cell.class == Class::Diverges {
-            cell.note = format!("step times frequency {product:.3}, limit {limit:.3}");
+            cell.note = format!("ωh {product:.3}, limit {limit:.3}");
         }
     }
     cell

@@ -79,11 +79,11 @@ fn table(text: &mut String, scene: &Measured) {
         let order = report::fitted_order(&rows, name, FITTED_MS, scene.prepared.reference_error_m);
         say!(text, "{line} {} |", order.map_or_else(String::new, |order| format!("{order:.1}")));
     }
-    for timed in &scene.rows {
-        if matches!(timed.row.status, Status::Failed(_) | Status::TooSlow(_)) {
-            let (word, remark) = csv::status(&timed.row.status);
-            say!(text, "\n- {} {word} {remark}.", named(timed.row.method));
-        }
+    let lost = |timed: &&Timed| matches!(timed.row.status, Status::Failed(_) | Status::TooSlow(_));
+    for (count, timed) in scene.rows.iter().filter(lost).enumerate() {
+        let (word, remark) = csv::status(&timed.row.status);
+        let first = if count == 0 { "\n" } else { "" };
+        say!(text, "{first}- {}: {word} {remark}.", named(timed.row.method));
     }
 }
 
