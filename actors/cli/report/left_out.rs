@@ -112,8 +112,8 @@ fn process(name: &str) -> Option<Process> {
     let file = format!("/proc/{}/status", child.id());
     let mut peak_kib = None;
     while child.try_wait().ok()?.is_none() {
-        // The field is missing once the process has ended.
-        peak_kib = hapticbillard_actors::files::peak_memory_kib(&file).or(peak_kib);
+        // Before the program is loaded and once it has ended there is little or nothing to read.
+        peak_kib = peak_kib.max(hapticbillard_actors::files::peak_memory_kib(&file));
     }
     Some(Process { wall_ms: begin.elapsed().as_secs_f64() * 1e3, peak_kib: peak_kib? })
 }
