@@ -19,10 +19,13 @@ mod course;
 mod lasting;
 mod motion;
 mod path;
+mod pivot;
 mod predict;
 #[cfg(test)]
 mod resegment;
 mod segment;
+#[cfg(test)]
+mod shortcuts;
 mod sweep;
 mod tell;
 mod terrain;

@@ -1,15 +1,17 @@
 //! Motion that has no closed form: a ball that turns about a rim, slides down a slope, is wedged
 //! between surfaces or leans on other balls.
 //!
-//! Only the balls concerned are stepped, all on one grid of [`tolerance::LASTING_STEP_S`]. A step
-//! takes every contact without restitution and with Coulomb's friction, solved jointly, and emits
-//! the quadratic through the velocities at both ends, so that detection, queue and impacts stay as
-//! they are. Normals turn within a step; what that adds or takes is put right by holding the energy
-//! of a ball that leans on nothing else to what friction leaves of it. Error: first order in the
-//! step for the moment of leaving a rim, second for its energy.
+//! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
+//! of its own, [`Pivot`]; all others go on one grid of [`tolerance::LASTING_STEP_S`]. There a step
+//! takes every contact without restitution and with Coulomb's friction, solved jointly. Either way
+//! it emits the quadratic through the velocities at both ends, so that detection, queue and impacts
+//! stay as they are. Normals turn within a step; what that adds or takes is put right by holding
+//! the energy of a ball that leans on nothing else to what friction leaves of it. Error: second
+//! order in the step for a single contact; else first, for the moment of leaving.
 
 use super::EventDriven;
 use super::motion::{self, Start};
+use super::pivot::{Base, Pivot};
 use super::predict::Changed;
 use super::segment::{Course, Segment};
 use super::terrain::Feature;
@@ -62,11 +64,6 @@ impl EventDriven {
         if self.begins.is_empty() {
             return;
         }
-        let step = tolerance::LASTING_STEP_S;
-        let mut next = (libm::floor(at / step) + 1.0) * step;
-        if next - at < 1e-9 {
-            next += step;
-        }
         let mut group = core::mem::take(&mut self.begins);
         group.sort_unstable();
         group.dedup();
@@ -78,10 +75,7 @@ impl EventDriven {
         for index in &group {
             self.cut_lasting(at, *index);
         }
-        self.pieces(at, &group, next);
-        if group.iter().any(|index| self.bodies[*index].segment.course == Course::Lasting) {
-            self.lasting_at = self.lasting_at.min(next);
-        }
+        self.pieces(at, &group);
         for index in group {
             if !changed.contains(&index) {
                 changed.push(index);
@@ -135,25 +129,24 @@ impl EventDriven {
         }
     }
 
-    /// The next step of all balls in lasting contact.
+    /// Balls in lasting contact.
+    fn lasting(&self) -> impl Iterator<Item = usize> {
+        self.bodies.iter().enumerate().filter_map(|(index, body)| {
+            (body.in_play() && body.segment.course == Course::Lasting).then_some(index)
+        })
+    }
+
+    /// The next step of the balls in lasting contact whose piece ends now.
     pub(super) fn step_lasting(&mut self, at: Seconds) -> Result<(), PhysicsError> {
         self.work.steps += 1;
-        let mut group: Changed = (0..self.bodies.len())
-            .filter(|index| {
-                let body = &self.bodies[*index];
-                body.in_play() && body.segment.course == Course::Lasting
-            })
-            .collect();
+        let mut group: Changed =
+            self.lasting().filter(|index| self.bodies[*index].segment.end_s <= at).collect();
         self.join_leaning(at, &mut group);
         for index in &group {
             self.check_finite(at, *index)?;
             self.cut_lasting(at, *index);
         }
-        let step = tolerance::LASTING_STEP_S;
-        let next = (libm::floor(at / step + 0.5) + 1.0) * step;
-        self.pieces(at, &group, next);
-        let lasts = |index: &usize| self.bodies[*index].segment.course == Course::Lasting;
-        self.lasting_at = if group.iter().any(lasts) { next } else { f64::INFINITY };
+        self.pieces(at, &group);
         self.predict(at, &group);
         for index in &group {
             if self.bodies[*index].in_play() {
@@ -163,9 +156,16 @@ impl EventDriven {
         Ok(())
     }
 
-    /// Emits the pieces of a group of balls up to `until`; balls that nothing unusual holds any
-    /// more go on by closed forms. Their segments must start at `at`.
-    fn pieces(&mut self, at: Seconds, group: &[usize], until: Seconds) {
+    /// Emits the next pieces of a group of balls; those that nothing unusual holds any more go on
+    /// by closed forms. Their segments must start at `at`.
+    fn pieces(&mut self, at: Seconds, group: &[usize]) {
+        self.emit_pieces(at, group);
+        let ends = self.lasting().map(|index| self.bodies[index].segment.end_s);
+        self.lasting_at = ends.fold(f64::INFINITY, f64::min);
+    }
+
+    fn emit_pieces(&mut self, at: Seconds, group: &[usize]) {
+        let until = after(at);
         let dt = until - at;
         let gravity = DVec3::NEG_Z * self.parameters.gravity_m_s2;
         let mut contacts: SmallVec<[Contacts; 4]> = SmallVec::new();
@@ -185,7 +185,10 @@ impl EventDriven {
         let mut kept: SmallVec<[Contacts; 4]> = SmallVec::new();
         for (place, index) in group.iter().enumerate() {
             let leans = pairs.iter().any(|(a, b, _)| a == index || b == index);
-            if leans || !self.leave_lasting(*index, &contacts[place]) {
+            let done = !leans
+                && (self.leave_lasting(*index, &contacts[place])
+                    || self.single_contact(at, *index, &contacts[place]));
+            if !done {
                 stay.push(*index);
                 kept.push(contacts[place].clone());
             }
@@ -395,8 +398,70 @@ impl EventDriven {
                 self.turn_into(index, next);
                 true
             }
+            [(feature @ Feature::Edge(_), normal, _)] => {
+                let body = &self.bodies[index];
+                let pivot = self.pivot(feature, normal);
+                let radius = body.ball.radius_m;
+                let leaves = pivot.press(segment.position, segment.velocity, radius) <= 0.0;
+                if leaves {
+                    let next = motion::free(&segment, &body.ball, &self.parameters);
+                    self.bodies[index].held.clear();
+                    self.turn_into(index, next);
+                }
+                leaves
+            }
             _ => false,
         }
+    }
+
+    fn pivot(&self, feature: Feature, normal: DVec3) -> Pivot {
+        let base = match feature {
+            Feature::Edge(edge) => {
+                let edge = &self.terrain.edges[edge as usize];
+                Base::Edge { from: edge.from, along: edge.along, length_m: edge.length_m }
+            }
+            _ => Base::Slope { normal },
+        };
+        let surface = self.terrain.surface(feature);
+        let law = Carrying {
+            friction: self.parameters.surface(surface).friction,
+            rolling_resistance: self.parameters.rolling_resistance,
+            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
+        };
+        Pivot { base, law, gravity_m_s2: self.parameters.gravity_m_s2 }
+    }
+
+    /// The next piece of a ball that touches a single edge or slope and nothing else.
+    fn single_contact(&mut self, at: Seconds, index: usize, contacts: &Contacts) -> bool {
+        let [(feature, normal, _)] = contacts[..] else { return false };
+        let body = &self.bodies[index];
+        let flags = &body.ball.flags;
+        let weighs = flags.gravity && flags.integrate;
+        if !weighs || body.ball.spring.is_some() || matches!(feature, Feature::Corner(_)) {
+            return false;
+        }
+        let from = body.segment;
+        let start = Mover::new(&body.ball, from.velocity, from.angular_velocity);
+        let pivot = self.pivot(feature, normal);
+        let Some(step) = pivot.step(from.position, &start) else { return false };
+        let height_j = body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
+        let body = &mut self.bodies[index];
+        body.target_j = start.kinetic_j() + height_j - step.loss_j;
+        body.held = SmallVec::from_slice(&[feature]);
+        body.quiet_since = at;
+        body.leans = false;
+        let rate = 1.0 / step.length_s;
+        body.turn_into(Segment {
+            end_s: at + step.length_s,
+            acceleration: (step.end.velocity - from.velocity) * rate,
+            angular_acceleration: (step.end.angular_velocity - from.angular_velocity) * rate,
+            normal,
+            spin_deceleration: 0.0,
+            course: Course::Lasting,
+            ..from
+        });
+        self.note_track(index);
+        true
     }
 
     /// What friction takes from each ball in a step [J]; applies rolling resistance.
@@ -446,4 +511,11 @@ impl EventDriven {
         }
         lost
     }
+}
+
+/// The next step after `at` of all that go on the grid [s].
+fn after(at: Seconds) -> Seconds {
+    let step = tolerance::LASTING_STEP_S;
+    let next = (libm::floor(at / step) + 1.0) * step;
+    if next - at < 1e-9 { next + step } else { next }
 }
