@@ -24,6 +24,8 @@ mod predict;
 mod resegment;
 mod segment;
 mod sweep;
+mod swing;
+mod swing_meets;
 mod tell;
 mod terrain;
 mod tip;
