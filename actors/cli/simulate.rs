@@ -160,7 +160,8 @@ fn check_step(args: &SimulateArgs, physics: &PhysicsSettings) -> Result<(), Erro
     if physics.solver == SolverKind::FixedStep || args.bench.is_some() {
         return Ok(());
     }
-    let given = [("--step-ms", args.step_ms.is_some()), ("--integrator", args.integrator.is_some())];
+    let given =
+        [("--step-ms", args.step_ms.is_some()), ("--integrator", args.integrator.is_some())];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     Err(Error::input(
         option.to_string(),

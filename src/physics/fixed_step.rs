@@ -28,8 +28,7 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks,
-    tolerance,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks, tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
