@@ -27,6 +27,8 @@ mod segment;
 #[cfg(test)]
 mod shortcuts;
 mod sweep;
+mod swing;
+mod swing_meets;
 mod tell;
 mod terrain;
 mod tip;

@@ -14,6 +14,7 @@ use super::motion::{self, Start};
 use super::pivot::{Base, Pivot};
 use super::predict::Changed;
 use super::segment::{Course, Segment};
+use super::swing;
 use super::terrain::Feature;
 use crate::physics::laws::Mover;
 use crate::physics::laws::cloth::{self, Carrying};
@@ -28,6 +29,9 @@ pub(super) const TOUCH_M: f64 = 1e-6;
 
 /// A contact that parts faster than this is none [m/s].
 const PARTS_M_S: f64 = 1e-2;
+
+/// How often the overlaps of a group are looked at in a step; it bounds the work.
+const PARTS_MAX: usize = 20;
 
 type Contacts = SmallVec<[(Feature, DVec3, f64); 4]>;
 
@@ -174,10 +178,18 @@ impl EventDriven {
             contacts.push(found);
         }
         let pairs = self.leaning_pairs(group);
-        for (a, b, normal) in &pairs {
-            let (one, two) = self.laid_apart(at, *a, *b, *normal, f64::INFINITY);
-            self.bodies[*a].segment.position += one;
-            self.bodies[*b].segment.position += two;
+        // Who parts from one may be pushed into the next.
+        for _ in 0..PARTS_MAX {
+            let mut clear = true;
+            for (a, b, normal) in &pairs {
+                let (one, two) = self.part(at, (*a, DVec3::ZERO), (*b, DVec3::ZERO), *normal);
+                clear &= one == DVec3::ZERO && two == DVec3::ZERO;
+                self.bodies[*a].segment.position += one;
+                self.bodies[*b].segment.position += two;
+            }
+            if clear {
+                break;
+            }
         }
 
         // Who is free of it?
@@ -214,18 +226,8 @@ impl EventDriven {
             if body.ball.flags.gravity {
                 mover.velocity += gravity * dt;
             }
-            if let Some(own) = &body.ball.spring {
-                let s = &body.segment;
-                let (linear, angular) = spring::acceleration(
-                    &body.ball,
-                    own,
-                    s.position,
-                    s.velocity,
-                    s.orientation,
-                    s.angular_velocity,
-                );
-                mover.velocity += linear * dt;
-                mover.angular_velocity += angular * dt;
+            if let Some(spring) = &body.ball.spring {
+                swing::push(mover, &body.ball, spring, &body.segment, dt);
             }
         }
         let pushed = movers.clone();
@@ -307,9 +309,17 @@ impl EventDriven {
                 centre += normal * (radius - distance).max(0.0);
             }
         }
+        centre = self.beside_others(index, centre);
+        let body = &self.bodies[index];
         if let [(_, normal, _)] = contacts[..] {
-            // Along the surface, if gravity holds it there.
-            let kick = -self.parameters.gravity_m_s2 * normal.z * tolerance::LASTING_STEP_S;
+            // Along the surface, if gravity or a spring holds it there.
+            let s = &body.segment;
+            let pull = body.ball.spring.as_ref().map_or(DVec3::ZERO, |own| {
+                let (x, w) = (s.orientation, s.angular_velocity);
+                spring::acceleration(&body.ball, own, centre, velocity, x, w).0
+            });
+            let weight = DVec3::NEG_Z * self.parameters.gravity_m_s2;
+            let kick = (weight + pull).dot(normal) * tolerance::LASTING_STEP_S;
             let out = velocity.dot(normal);
             if out + kick < 0.0 {
                 let along = velocity - normal * out;
@@ -356,6 +366,29 @@ impl EventDriven {
         body.segment.velocity = velocity;
         body.segment.angular_velocity = spin;
         contacts
+    }
+
+    /// Where a ball is laid that should be at `centre`, so that it is not laid into another: that is
+    /// a micrometre or two, and the surface waits. On one that it stands on it lies all the same.
+    fn beside_others(&self, index: usize, mut centre: DVec3) -> DVec3 {
+        let body = &self.bodies[index];
+        let (at, from) = (body.segment.start_s, body.segment.position);
+        for (other, path) in self.paths.iter().enumerate() {
+            let reach = path.radius_m + body.ball.radius_m;
+            let near = centre.distance(self.centre_at(other, at)) <= reach;
+            if other == index || !path.solid || !near {
+                continue;
+            }
+            let segment = &self.bodies[other].segment;
+            let there = segment.position_at(at);
+            let line = centre - there;
+            let carries = line.z * line.z > 0.75 * line.length_squared();
+            let into = from.distance(there).min(reach) - line.length();
+            if into > 0.0 && !(carries && segment.course == Course::Lasting) {
+                centre += line.normalize_or_zero() * into;
+            }
+        }
+        centre
     }
 
     /// Pairs of a group that lean on each other.

@@ -370,6 +370,19 @@ impl Terrain {
         block
     }
 
+    /// Whether any cell lists something where the centre of a ball is in a box.
+    pub fn lists_between(&self, low: DVec3, high: DVec3) -> bool {
+        let count = self.count >> CUTS;
+        let (low, high) = (self.place_of(low) >> CUTS, self.place_of(high) >> CUTS);
+        let (low, high) = (low.max(IVec3::ZERO), high.min(count - 1));
+        (low.z..=high.z).any(|z| {
+            (low.y..=high.y).any(|y| {
+                (low.x..=high.x)
+                    .any(|x| self.empty[((z * count.y + y) * count.x + x) as usize] == 0)
+            })
+        })
+    }
+
     /// The corners of a block [m]; infinite where it goes beyond the grid.
     pub fn corners_of(&self, block: &Block) -> (DVec3, DVec3) {
         let min = self.origin + block.low.as_dvec3() * self.cell_m;
