@@ -25,6 +25,6 @@ pub use method::{
 pub use order::{computations, fitted_order, on_the_front, orders};
 pub use stability::{
     CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, WallRow,
-    hertz_rows, pieces_limit, rest_rows, spring_cell, spring_limit, wall_rows,
+    hertz_rows, rest_rows, spring_cell, spring_limit, wall_rows,
 };
 pub use trial::{Failure, Patience, Prepared, Row, Status, Track, judge, left_out};

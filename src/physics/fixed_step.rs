@@ -56,12 +56,7 @@ pub const CELL_M: f64 = 0.1;
 pub struct FixedStep {
     ground: Arc<Ground>,
     parameters: Parameters,
-    profile: Profile,
-    integrator: Integrator,
-    back_dating: bool,
-    /// Parts of a step in which something happens.
-    sub_steps: u32,
-    step_ms: f64,
+    settings: PhysicsSettings,
     /// Length of a step, or of the part in hand [s].
     h: Seconds,
     /// When the step, or the part in hand, began [s].
@@ -147,18 +142,40 @@ impl FixedStep {
         sub_steps::check(settings)?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
+        let ground = Arc::new(Ground::new(table, cell_m));
+        Self::on(ground, cell_m, balls, settings.clone(), parameters)
+    }
+
+    /// Other balls at their start on the same table, which is prepared only once.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if a value is impossible or two balls overlap.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let (settings, parameters) = (self.settings.clone(), self.parameters.clone());
+        let world = Self::on(self.ground.clone(), self.cell_m, balls, settings, parameters)?;
+        Ok(FixedStep { skips: self.skips, rejects: self.rejects, ..world })
+    }
+
+    fn on(
+        ground: Arc<Ground>,
+        cell_m: f64,
+        balls: Vec<(Ball, BallState)>,
+        settings: PhysicsSettings,
+        parameters: Parameters,
+    ) -> Result<Self, PhysicsError> {
+        let bodies: Vec<Body> = checks::checked(balls)?
+            .into_iter()
+            .map(|(ball, state)| Body::new(ball, &state))
+            .collect();
+        let count = bodies.len();
         let h = settings.step_ms / 1000.0;
-        let empty = FixedStep {
-            ground: Arc::new(Ground::new(table, cell_m)),
+        let mut world = FixedStep {
+            ground,
             parameters,
-            profile: settings.profile,
-            integrator: settings.integrator,
-            back_dating: settings.contact_back_dating,
-            sub_steps: settings.sub_steps,
-            step_ms: settings.step_ms,
+            settings,
             h,
             begun: 0.0,
-            bodies: Vec::new(),
+            bodies,
             cue: None,
             step: 0,
             commands: VecDeque::new(),
@@ -174,39 +191,8 @@ impl FixedStep {
             ledger: Ledger::default(),
             work: Work::default(),
             tracks: None,
-            scratch: Scratch::new(cell_m, 0),
+            scratch: Scratch::new(cell_m, count),
             cell_m,
-        };
-        empty.with_balls(balls)
-    }
-
-    /// Other balls at their start on the same table, which is prepared only once.
-    ///
-    /// # Errors
-    /// [`PhysicsError`] if a value is impossible or two balls overlap.
-    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
-        let bodies: Vec<Body> = checks::checked(balls)?
-            .into_iter()
-            .map(|(ball, state)| Body::new(ball, &state))
-            .collect();
-        let count = bodies.len();
-        let mut world = FixedStep {
-            ground: self.ground.clone(),
-            parameters: self.parameters.clone(),
-            bodies,
-            cue: None,
-            step: 0,
-            commands: VecDeque::new(),
-            pending: VecDeque::new(),
-            told: Vec::new(),
-            touching: Vec::new(),
-            moved: false,
-            rest_since: None,
-            ledger: Ledger::default(),
-            work: Work::default(),
-            tracks: None,
-            scratch: Scratch::new(self.cell_m, count),
-            ..*self
         };
         for index in 0..count {
             world.find_supports(index);
@@ -269,7 +255,7 @@ impl FixedStep {
 
     /// Grid time `step` [s].
     fn grid(&self, step: u64) -> Seconds {
-        step as f64 * self.step_ms / 1000.0
+        step as f64 * self.settings.step_ms / 1000.0
     }
 
     /// The first step whose grid time is not before `at`.
@@ -332,7 +318,7 @@ impl FixedStep {
     /// The whole step.
     fn one_step(&mut self) -> Result<(), PhysicsError> {
         let (start, end) = (self.grid(self.step), self.grid(self.step + 1));
-        if self.sub_steps > 1 {
+        if self.settings.sub_steps > 1 {
             self.try_step(start, end)?;
         } else {
             self.part(start, end)?;
@@ -352,7 +338,7 @@ impl FixedStep {
         self.smooth();
 
         // Contacts.
-        match self.profile {
+        match self.settings.profile {
             Profile::Standard => self.sweep(start)?,
             Profile::Paper2009 => self.paper_contacts(start),
         }
@@ -481,7 +467,7 @@ impl Solver for FixedStep {
             hash.vec3(body.velocity);
             hash.vec3(body.angular_velocity);
             hash.quat(body.orientation);
-            if self.integrator == Integrator::PositionVerlet {
+            if self.settings.integrator == Integrator::PositionVerlet {
                 hash.vec3(body.way.unwrap_or(DVec3::INFINITY));
                 hash.vec3(body.pushed);
             }

@@ -63,10 +63,18 @@ impl Default for PhysicsSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ExactTolerances {
-    /// A hop that begins slower than this is not followed [m/s]; see [`tolerance::HOP_M_S`].
+    /// A hop on level ground that begins slower than this is not followed [m/s]; see
+    /// [`tolerance::HOP_M_S`].
     pub hop_m_s: f64,
     /// Step of the motion that has no closed form [s]; see [`tolerance::LASTING_STEP_S`].
     pub lasting_step_s: Seconds,
+}
+
+impl ExactTolerances {
+    /// Speed below which a hop off a surface is not followed [m/s]; see [`tolerance::hop_m_s`].
+    pub fn hop_below(&self, restitution: f64, upright: f64) -> f64 {
+        tolerance::hop_m_s(restitution, upright) * (self.hop_m_s / tolerance::HOP_M_S)
+    }
 }
 
 impl Default for ExactTolerances {

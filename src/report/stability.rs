@@ -7,7 +7,7 @@ mod wall;
 
 pub use cases::CASES;
 pub use hertz::{HertzRow, hertz_rows};
-pub use springs::{Limit, RATIOS, STIFFNESSES, pieces_limit, spring_cell, spring_limit};
+pub use springs::{Limit, RATIOS, STIFFNESSES, spring_cell, spring_limit};
 pub use wall::{WallRow, wall_rows};
 
 use super::method::Method;

@@ -29,7 +29,7 @@ impl FixedStep {
     }
 
     fn smooth_ball(&mut self, index: usize) {
-        self.work.force_evaluations += match self.integrator {
+        self.work.force_evaluations += match self.settings.integrator {
             Integrator::EulerCromer => 1,
             Integrator::Verlet | Integrator::PositionVerlet => 2,
             Integrator::Rk4 => 4,
@@ -59,7 +59,7 @@ impl FixedStep {
         // thing: there a lying ball falls into the bed and is thrown back, step by step.
         let mut mover =
             Mover { velocity: free.velocity, angular_velocity: free.angular_velocity, ..before };
-        let carriers = if self.profile == Profile::Standard {
+        let carriers = if self.settings.profile == Profile::Standard {
             self.carriers(body, free.velocity, force_kick)
         } else {
             SmallVec::new()
@@ -79,7 +79,7 @@ impl FixedStep {
         // Euler-Cromer by all of it.
         let change = mover.velocity - free.velocity;
         let rests = before.velocity == DVec3::ZERO && mover.velocity == DVec3::ZERO;
-        let mut path_velocity = match self.integrator {
+        let mut path_velocity = match self.settings.integrator {
             _ if rests => DVec3::ZERO,
             Integrator::EulerCromer => mover.velocity,
             Integrator::Verlet | Integrator::Rk4 => free.displacement / h + 0.5 * change,
@@ -88,7 +88,7 @@ impl FixedStep {
         };
         for Support { normal, .. } in &carriers {
             path_velocity -= *normal * path_velocity.dot(*normal).min(0.0);
-            if self.integrator == Integrator::PositionVerlet {
+            if self.settings.integrator == Integrator::PositionVerlet {
                 // Its last way knows nothing of what carries the ball since.
                 path_velocity += *normal * (mover.velocity - path_velocity).dot(*normal);
             }
@@ -104,7 +104,7 @@ impl FixedStep {
         let stops = mover.velocity == DVec3::ZERO && before.velocity != DVec3::ZERO;
         self.changes |= stops || (sticks && self.bodies[index].motion == Motion::Sliding);
         let mut way = None;
-        if self.integrator == Integrator::PositionVerlet {
+        if self.settings.integrator == Integrator::PositionVerlet {
             let slid = mover.velocity;
             let plain = position == self.bodies[index].position && carriers.len() < 2;
             if plain && mover.velocity != DVec3::ZERO {
@@ -224,7 +224,7 @@ impl FixedStep {
             self.acceleration(body, dt, position, velocity, spin)
         };
         let (x0, _, _) = start;
-        match self.integrator {
+        match self.settings.integrator {
             Integrator::EulerCromer => {
                 let (a, b) = force(0.0, x0, v, w);
                 let velocity = v + a * h;

@@ -43,7 +43,7 @@ impl FixedStep {
         }
         (self.bodies, self.ledger) = before;
 
-        let (whole, parts) = (self.h, self.sub_steps);
+        let (whole, parts) = (self.h, self.settings.sub_steps);
         self.forget_ways();
         self.h = whole / f64::from(parts);
         let at = |part: u32| start + (end - start) * (f64::from(part) / f64::from(parts));

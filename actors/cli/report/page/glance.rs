@@ -167,11 +167,6 @@ fn reason(scene: &Measured, own: &Timed) -> String {
     let a_second = work.events as f64 / simulated_s;
     let tests = work.tests() as f64 / work.events.max(1) as f64;
     let why = match scene.prepared.scene.id {
-        id if id.starts_with("spring") => {
-            "A ball on a spring is cut into pieces of a tenth of the inverse of its frequency, in \
-             which it is looked for contacts, however coarse an answer would do. Its path is exact \
-             in any case; what is paid for is that it cannot tunnel"
-        }
         "thousand" => {
             "A thousand balls meet so often that a step need not look for the moments: it handles the \
              contacts of a millisecond at once, while each event is found, queued and solved on its \
