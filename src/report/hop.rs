@@ -5,8 +5,8 @@
 //! velocity: it takes the way of the last step for it. Pushing a ball out changes that way, so that
 //! the push becomes a speed, push over step; and a velocity that is turned round must be written
 //! back as a made-up last place. Both are tried here beside Verlet in its velocity form, which has
-//! neither trouble. The solver's own position form is dropped too: under the standard laws it writes
-//! the last place anew, under those of 2009 it takes what pushes the ball out for its way.
+//! neither trouble. The solver's own position form is dropped too: under the standard laws it
+//! writes the last place anew, under those of 2009 it takes what pushes the ball out for its way.
 
 use super::starts::{self, R};
 use crate::events::FactSet;

@@ -142,8 +142,8 @@ impl Measured {
     }
 }
 
-/// Runs a world, as long as `patience` lasts, to `until_s` and takes the error at `looks` times; one that is no number counts as
-/// infinite.
+/// Runs a world, as long as `patience` lasts, to `until_s` and takes the error at `looks` times;
+/// one that is no number counts as infinite.
 fn measure(
     patience: Patience<'_>,
     mut world: Simulation,

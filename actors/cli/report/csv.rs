@@ -31,7 +31,8 @@ fn number(value: Option<f64>) -> String {
 pub fn errors(measured: &[Measured]) -> String {
     let mut text = String::from(
         "scene,method,step_ms,error_name,norm,unit,error,reference,reference_error,\
-         observed_order,starts,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,steps,\
+         observed_order,starts,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,\
+         steps,\
          events,pair_tests,face_tests,contacts,force_evaluations,\
          flights,spins,pocket_tests,status,remark\n",
     );

@@ -60,6 +60,12 @@ fn head(text: &mut String, quick: bool) {
     );
     say!(
         text,
+        "Made anew by one command, from the root of the repository:\n\n```text\ncargo run \
+        --release \
+         -p hapticbillard-actors --no-default-features -- report{flag} --out tests/report\n```\n"
+    );
+    say!(
+        text,
         "Errors, counters and classes are the same on every machine; processor times are this \
          one's, of one thread, and so is what was too slow. All rows are in \
          [errors.csv](errors.csv) and [stability.csv](stability.csv). An error is the distance of \

@@ -1,10 +1,12 @@
 //! The sampled spring wall: a stylus pressed against a spring whose force is computed at a rate and
 //! held in between.
 //!
-//! A mass m with friction b meets a wall of stiffness K at x > 0. The force −K x is that of the last
-//! sample, so that it lags by half a period on the average and gives energy on the way out. Colgate
-//! and Schenkel (1997): passive in any hand if K < 2 b / T. In free air the pair (x, v) of a
-//! sample follows from the last by a matrix; it swings up once an eigenvalue leaves the unit circle.
+//! A mass m with friction b meets a wall of stiffness K at x > 0. The force −K x is that of the
+//! last sample, so that it lags by half a period on the average and gives energy on the way out.
+//! Colgate and Schenkel (1997): passive in any hand if K < 2 b / T. While it is pressed in, the
+//! pair (x, v) of
+//! a sample follows from the last by a matrix; it swings up once an eigenvalue leaves the unit
+//! circle.
 
 use crate::units::Seconds;
 

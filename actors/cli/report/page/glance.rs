@@ -40,8 +40,8 @@ pub fn glance(text: &mut String, measured: &[Measured]) {
     fronts(text, measured);
 }
 
-/// The cheapest run that is at least so good. What is dearer by less than a fifth is as cheap, as far
-/// as processor times can tell; the exact solver as it comes is then named before others.
+/// The cheapest run that is at least so good. What is dearer by less than a fifth is as cheap, as
+/// far as processor times can tell; the exact solver as it comes is then named before others.
 fn choice(scene: &Measured, error_m: f64) -> Option<(&Timed, f64)> {
     let (timed, us) = cheapest(scene.rows.iter(), error_m)?;
     let own = cheapest(exact(scene).into_iter(), error_m);
@@ -168,10 +168,10 @@ fn reason(scene: &Measured, own: &Timed) -> String {
     let tests = work.tests() as f64 / work.events.max(1) as f64;
     let why = match scene.prepared.scene.id {
         "thousand" => {
-            "A thousand balls meet so often that a step need not look for the moments: it handles the \
-             contacts of a millisecond at once, while each event is found, queued and solved on its \
-             own. Steps pay with errors that they cannot make smaller than a millimetre within the \
-             time that they were given"
+            "A thousand balls meet so often that a step need not look for the moments: it handles \
+             the contacts of a millisecond at once, while each event is found, queued and solved \
+             on its own. Steps pay with errors that they cannot make smaller than a millimetre \
+             within the time that they were given"
         }
         "pocket" => {
             "A ball on the rim has no closed form and goes in pieces; it pays those and the search \

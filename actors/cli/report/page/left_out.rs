@@ -23,8 +23,8 @@ pub fn chapter(text: &mut String, lines: &[Line]) {
     say!(
         text,
         "| scene | actors (full: {most}) | threads of their own | terms of physics | left out | \
-         predictions: pairs, faces, flights, spins, pockets | triangles | table [bytes] | \
-         memory [KiB] | start-up [us] | whole process [ms] | linked by default, not used |"
+         predictions: pairs, faces, flights, spins, pockets | triangles | table [bytes] | memory \
+         [KiB] | start-up [us] | whole process [ms] | linked by default, not used |"
     );
     say!(text, "|---|---|---|---|---|---|---|---|---|---|---|---|");
     for line in lines {
@@ -78,8 +78,9 @@ fn proof(text: &mut String, lines: &[Line]) {
     say!(
         text,
         "\n**Leaving out changes no bit.** Each scene's balls were run for {COMPARED_S} s as they \
-         are, and again with two planes and a ball far away, and every number of places, velocities \
-         and spins was compared: of {compared} numbers in {} scenes {differ} differ in any bit.\n",
+         are, and again with two planes and a ball far away, and every number of places, \
+         velocities and spins was compared: of {compared} numbers in {} scenes {differ} differ in \
+         any bit.\n",
         lines.len()
     );
     for line in lines.iter().filter(|line| line.idle.differ > 0) {
@@ -93,9 +94,9 @@ pub fn missing(text: &mut String, measured: &[Measured], quick: bool) {
     say!(
         text,
         "- Where the reference is event-driven, it and the method share their laws and their code: \
-         its error is that of tolerances and of a disturbance, not of a mistake in both. The closed \
-         forms of the other scenes, `hapticbillard validate` and fixed steps that converge to it \
-         speak against one.\n\
+         its error is that of tolerances and of a disturbance, not of a mistake in both. The \
+         closed forms of the other scenes, `hapticbillard validate` and fixed steps that converge \
+         to it speak against one.\n\
          - The reference of the thousand balls is sure to the disturbance of one ball only.\n\
          - All balls take sub-steps together; with many balls nearly every step is cut.\n\
          - Sub-steps are not combined with the laws of 2009, in which a lying ball collides in \

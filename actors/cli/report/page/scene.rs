@@ -110,14 +110,15 @@ fn reading(scene: &Measured) -> String {
     sentences.push(String::from(match order("velocity-verlet") {
         _ if prepared.scene.smooth => {
             "The force is smooth and nothing happens, so each integrator shows its own order as \
-             long as its step is short against the swing: 1, 2, 2 and 4. Sub-steps change nothing."
+             long as its step is short against the swing: 1, 2, 2 and 4. Sub-steps change \
+             nothing."
         }
         Some(order) if order > 1.5 => {
             "Forces are constant between events, so that Verlet in its velocity form and RK4 \
-             follow them exactly, while Euler-Cromer moves the ball by too much in every step. What \
-             is left to the finer two is the step in which sliding ends or the ball lands: its \
-             velocity is put right within the step, and the way is off by no more than the step \
-             squared."
+             follow them exactly, while Euler-Cromer moves the ball by too much in every step. \
+             What is left to the finer two is the step in which sliding ends or the ball lands: \
+             its velocity is put right within the step, and the way is off by no more than the \
+             step squared."
         }
         Some(_) => {
             "Forces are constant between events, so a finer integrator has little to gain there; \
@@ -222,8 +223,8 @@ fn worse_with_finer_steps(scene: &Measured) -> Option<String> {
     let why = if scene.prepared.scene.id == "pocket" {
         "Between the rim and the net a ball hits edges of a mesh, and which of them it hits first \
          turns on a micrometre, that is, on where a step ends. Each such choice leads to another \
-         path, and a smaller step changes the choice without being nearer to the truth, until it is \
-         small enough that the choice is always the right one. Errors there have no order"
+         path, and a smaller step changes the choice without being nearer to the truth, until it \
+         is small enough that the choice is always the right one. Errors there have no order"
     } else {
         "Where in its step a contact lies decides how much is lost at it, and a finer step may by \
          luck hit it worse; which ball or hop comes first can turn on it too"

@@ -34,8 +34,8 @@ pub fn chaos(text: &mut String, table: &Table) {
     say!(
         text,
         "| method | kinetic energy over the first | spread of the balls [m] | balls that move | \
-         energy that does not add up [J] | momentum that does not [N s] | \
-         energy the method added [J] |"
+         energy that does not add up [J] | momentum that does not [N s] | energy the method added \
+         [J] |"
     );
     say!(text, "|---|---|---|---|---|---|---|");
     let mut seen = Vec::new();
@@ -124,12 +124,16 @@ pub fn chapter(text: &mut String, table: &Table) {
         }
         say!(text, "{line}");
     }
+    let seen = REMARKS.iter().filter_map(|(case, class, remark)| {
+        let row = table.rows.iter().find(|row| row.id == *case)?;
+        row.cells.iter().any(|(_, cell)| cell.class == *class).then_some(*remark)
+    });
     say!(
         text,
-        "\nA cell that diverges names natural frequency times step, the limit of theory and the limit \
-         found on the solver. What wants a word:\n"
+        "\nA cell that diverges names natural frequency times step, the limit of theory and the \
+         limit found on the solver. What wants a word:\n"
     );
-    for remark in remarks.iter().chain(&REMARKS.map(String::from)) {
+    for remark in remarks.iter().map(String::as_str).chain(seen) {
         say!(text, "- {remark}.");
     }
     limits(text, table);
@@ -139,18 +143,33 @@ pub fn chapter(text: &mut String, table: &Table) {
     wall(text, table);
 }
 
-/// What the table does not explain by itself.
-const REMARKS: [&str; 3] = [
-    "Restitution 1 with sub-steps: Euler-Cromer keeps energy, on the average, only as long as its \
+/// What the table does not explain by itself: the case, what one sees there, and why.
+const REMARKS: [(&str, Class, &str); 3] = [
+    (
+        "restitution_1",
+        Class::Drifts,
+        "Restitution 1 with sub-steps: Euler-Cromer keeps energy, on the average, only as long as \
+        its \
      step stays the same. Its velocity is that of another moment of the step than its place; a \
      change of step before and after each bounce changes by how much, always to the same side",
-    "Bounces between a wall and a heavy ball: a step lets a ball have 16 contacts and then takes its \
-     restitution, so that it comes to rest between the two and is struck without end. With fewer \
-     contacts in a step the stepper is exact, and sub-steps are enough for 314 of them",
-    "Grazing: event-driven finds so flat a meeting as the root of a polynomial of fourth degree that \
-     is hardly negative there, and rounding of its coefficients moves the root. Straight paths need \
-     a square root alone. The velocity itself is 1.4e-4 of the other ball's, so that it is wrong by \
-     4e-11 m/s",
+    ),
+    (
+        "galperin_1e4",
+        Class::GivesUp,
+        "Bounces between a wall and a heavy ball: a step lets a ball have 16 contacts and then \
+        takes \
+     its restitution, so that it comes to rest between the two and is struck without end. With \
+     fewer contacts in a step the stepper is exact, and sub-steps are enough for 314 of them",
+    ),
+    (
+        "grazing",
+        Class::Bounded,
+        "Grazing: event-driven finds so flat a meeting as the root of a polynomial of fourth \
+        degree \
+     that is hardly negative there, and rounding of its coefficients moves the root. Straight \
+     paths need a square root alone. The velocity itself is 1.4e-4 of the other ball's, so that it \
+     is wrong by 4e-11 m/s",
+    ),
 ];
 
 /// The limit as it was found on the solver, for a cell that names that of theory.
@@ -166,8 +185,8 @@ fn limits(text: &mut String, table: &Table) {
     say!(text, "\n### From where on a spring is too stiff\n");
     say!(
         text,
-        "Natural frequency times step: measured by halving on the solver itself, and from \
-         the eigenvalues of one step.\n"
+        "Natural frequency times step: measured by halving on the solver itself, and from the \
+         eigenvalues of one step.\n"
     );
     say!(text, "| integrator | damping over critical | measured | theory |");
     say!(text, "|---|---|---|---|");
@@ -182,10 +201,10 @@ fn limits(text: &mut String, table: &Table) {
     }
     say!(
         text,
-        "\nEuler-Cromer and both forms of Verlet end at 2, RK4 at 2 √2. Damping *lowers* the limit of \
-         those that take it from the start of the step. Event-driven follows a spring in closed form \
-         and is never unstable; beyond the reach of its swing it looks for no contacts, so that a \
-         free one costs the same however stiff it is.\n"
+        "\nEuler-Cromer and both forms of Verlet end at 2, RK4 at 2 √2. Damping *lowers* the limit \
+         of those that take it from the start of the step. Event-driven follows a spring in closed \
+         form and is never unstable; beyond the reach of its swing it looks for no contacts, so \
+         that a free one costs the same however stiff it is.\n"
     );
 }
 
@@ -232,8 +251,8 @@ fn rest(text: &mut String, table: &Table) {
     }
     say!(
         text,
-        "\nSeen at 60 frames a second. The paper found hops below 0.1 mm that are seen at 2 to \
-         10 Hz, an alias of step and picture (section 2.5); a ball that hops nowhere has 0 Hz.\n"
+        "\nSeen at 60 frames a second. The paper found hops below 0.1 mm that are seen at 2 to 10 \
+         Hz, an alias of step and picture (section 2.5); a ball that hops nowhere has 0 Hz.\n"
     );
 }
 
