@@ -73,7 +73,9 @@ pub struct ExactTolerances {
 impl ExactTolerances {
     /// Speed below which a hop off a surface is not followed [m/s]; see [`tolerance::hop_m_s`].
     pub fn hop_below(&self, restitution: f64, upright: f64) -> f64 {
-        tolerance::hop_m_s(restitution, upright) * (self.hop_m_s / tolerance::HOP_M_S)
+        let factor = self.hop_m_s / tolerance::HOP_M_S;
+        // What is slower is no contact that closes.
+        (tolerance::hop_m_s(restitution, upright) * factor).max(tolerance::CLOSING_M_S)
     }
 }
 

@@ -43,7 +43,7 @@ pub enum Method {
 pub enum Tolerances {
     /// Hops and steps of lasting contact as large as a game would not see.
     Coarse,
-    /// Smaller than the default by a factor of 25.
+    /// Hops down to a thousandth of the default, lasting contact in steps of a 25th.
     Fine,
     /// Twice those of `Fine`: their difference is how sure `Fine` is.
     LessFine,
@@ -53,14 +53,14 @@ impl Tolerances {
     /// In numbers.
     pub fn values(self) -> ExactTolerances {
         let standard = ExactTolerances::default();
-        let scaled = |factor: f64| ExactTolerances {
-            hop_m_s: standard.hop_m_s * factor,
-            lasting_step_s: standard.lasting_step_s * factor,
+        let scaled = |hop: f64, lasting: f64| ExactTolerances {
+            hop_m_s: standard.hop_m_s * hop,
+            lasting_step_s: standard.lasting_step_s * lasting,
         };
         match self {
-            Tolerances::Coarse => scaled(8.0),
-            Tolerances::Fine => scaled(0.04),
-            Tolerances::LessFine => scaled(0.08),
+            Tolerances::Coarse => scaled(8.0, 8.0),
+            Tolerances::Fine => scaled(1e-3, 0.04),
+            Tolerances::LessFine => scaled(2e-3, 0.08),
         }
     }
 }
