@@ -61,8 +61,8 @@ fn head(text: &mut String, quick: bool) {
     say!(
         text,
         "Made anew by one command, from the root of the repository:\n\n```text\ncargo run \
-        --release \
-         -p hapticbillard-actors --no-default-features -- report{flag} --out tests/report\n```\n"
+         --release -p hapticbillard-actors --no-default-features -- report{flag} --out \
+         tests/report\n```\n"
     );
     say!(
         text,

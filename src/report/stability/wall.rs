@@ -4,9 +4,8 @@
 //! A mass m with friction b meets a wall of stiffness K at x > 0. The force −K x is that of the
 //! last sample, so that it lags by half a period on the average and gives energy on the way out.
 //! Colgate and Schenkel (1997): passive in any hand if K < 2 b / T. While it is pressed in, the
-//! pair (x, v) of
-//! a sample follows from the last by a matrix; it swings up once an eigenvalue leaves the unit
-//! circle.
+//! pair (x, v) of a sample follows from the last by a matrix; it swings up once an eigenvalue
+//! leaves the unit circle.
 
 use crate::units::Seconds;
 

@@ -20,10 +20,10 @@ pub fn how_to_read(text: &mut String) {
          simulated second. \"Dear\" was left out for its cost, \"slow\" was stopped or not begun \
          because a coarser step took too long, \"failed\" is explained below the table. The order \
          is the slope over all steps up to {FITTED_MS} ms. Methods: event-driven (with its \
-         tolerances for hops and lasting contact eight times as coarse, and a thousand and 25 times as fine); \
-         Euler-Cromer, the paper's own; Verlet in its velocity and its position form; the \
-         classical Runge-Kutta method; and two of them with sub-steps: a step in which something \
-         happens is cut into {} (section 2.5 of the paper).\n",
+         tolerances for hops and lasting contact eight times as coarse, and a thousand and 25 \
+         times as fine); Euler-Cromer, the paper's own; Verlet in its velocity and its position \
+         form; the classical Runge-Kutta method; and two of them with sub-steps: a step in which \
+         something happens is cut into {} (section 2.5 of the paper).\n",
         report::SUB_STEPS
     );
 }

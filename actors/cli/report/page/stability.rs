@@ -149,26 +149,25 @@ const REMARKS: [(&str, Class, &str); 3] = [
         "restitution_1",
         Class::Drifts,
         "Restitution 1 with sub-steps: Euler-Cromer keeps energy, on the average, only as long as \
-        its \
-     step stays the same. Its velocity is that of another moment of the step than its place; a \
-     change of step before and after each bounce changes by how much, always to the same side",
+         its step stays the same. Its velocity is that of another moment of the step than its \
+         place; a change of step before and after each bounce changes by how much, always to the \
+         same side",
     ),
     (
         "galperin_1e4",
         Class::GivesUp,
         "Bounces between a wall and a heavy ball: a step lets a ball have 16 contacts and then \
-        takes \
-     its restitution, so that it comes to rest between the two and is struck without end. With \
-     fewer contacts in a step the stepper is exact, and sub-steps are enough for 314 of them",
+         takes its restitution, so that it comes to rest between the two and is struck without \
+         end. With fewer contacts in a step the stepper is exact, and sub-steps are enough for 314 \
+         of them",
     ),
     (
         "grazing",
         Class::Bounded,
         "Grazing: event-driven finds so flat a meeting as the root of a polynomial of fourth \
-        degree \
-     that is hardly negative there, and rounding of its coefficients moves the root. Straight \
-     paths need a square root alone. The velocity itself is 1.4e-4 of the other ball's, so that it \
-     is wrong by 4e-11 m/s",
+         degree that is hardly negative there, and rounding of its coefficients moves the root. \
+         Straight paths need a square root alone. The velocity itself is 1.4e-4 of the other \
+         ball's",
     ),
 ];
 
