@@ -369,7 +369,8 @@ impl EventDriven {
     }
 
     /// Where a ball is laid that should be at `centre`, so that it is not laid into another: that
-    /// is a micrometre or two, and the surface waits. On one that it stands on it lies all the same.
+    /// is a micrometre or two, and the surface waits. On one that it stands on it lies all the
+    /// same.
     fn beside_others(&self, index: usize, mut centre: DVec3) -> DVec3 {
         let body = &self.bodies[index];
         let (at, from) = (body.segment.start_s, body.segment.position);
