@@ -10,7 +10,8 @@ use rapier::prelude::{
 /// Rapier's lengths are meant for bodies of a metre; a ball is a twentieth of that.
 const LENGTH_UNIT: f64 = 0.05;
 const ITERATIONS: usize = 8;
-/// A centre this close to its place on cloth rolls on it [m]; rapier lets balls sink by 2 mm at coarse steps.
+/// A ball this close to its place on cloth is on it [m]; rapier lets balls sink by 2 mm at coarse
+/// steps.
 const ON_CLOTH_M: Real = 3e-3;
 /// A ball whose slip friction can stop in a step rolls; friction slows slip by 7/2 μ g.
 const SLIP_OVER_GRIP: f64 = 3.5;
