@@ -333,10 +333,10 @@ fn report_puts_other_programs_beside_its_own_rows() {
     };
     let mut peers = serde_json::json!({
         "made": "some day",
-        "programs": [one("first", None), one("second", None), one("third", Some("no wheel"))],
+        "programs": [one("alpha", None), one("beta", None), one("gamma", Some("no wheel"))],
         "rows": [
-            row("first", 4.0.into(), 1e-20.into(), "ok", "helped"),
-            row("second", Value::Null, Value::Null, "cannot_express", "balls cannot fly"),
+            row("alpha", 4.0.into(), 1e-20.into(), "ok", "helped"),
+            row("beta", Value::Null, Value::Null, "cannot_express", "balls cannot fly"),
         ],
     });
     let write = |peers: &Value| std::fs::write(&file, peers.to_string()).unwrap();
@@ -347,28 +347,28 @@ fn report_puts_other_programs_beside_its_own_rows() {
     let read = |name: &str| std::fs::read_to_string(Path::new(&out).join(name)).unwrap();
     let page = read("REPORT.md");
     for expected in [
-        "- first (1): About first.",
-        "- third (not run: no wheel): About third.",
-        "| first | 4 | 1.0e-20 | - | 0.0 (0.0 to 0.0) | - | ok: helped |",
-        "| second | - | - | - | - | - | cannot express: balls cannot fly |",
-        "Event-driven is not on the Pareto front: as good and as cheap or better are first at 4 ms",
+        "- alpha (1): About alpha.",
+        "- gamma (not run: no wheel): About gamma.",
+        "| alpha | 4 | 1.0e-20 | - | 0.0 (0.0 to 0.0) | - | ok: helped |",
+        "| beta | - | - | - | - | - | cannot express: balls cannot fly |",
+        "Event-driven is not on the Pareto front: as good and as cheap or better are alpha at 4 ms",
     ] {
         assert!(page.contains(expected), "{expected} is not in\n{page}");
     }
     let errors = read("errors.csv");
-    assert!(errors.contains("\nbounce,\"second\",,position,"), "{errors}");
+    assert!(errors.contains("\nbounce,\"beta\",,position,"), "{errors}");
     let fields = |line: &str| line.split(',').count();
     let counts: Vec<usize> = errors.lines().map(fields).collect();
     assert!(counts.windows(2).all(|pair| pair[0] == pair[1]), "{errors}");
     let figure = read("bounce.svg");
-    assert!(figure.contains("first") && !figure.contains("second"), "{figure}");
+    assert!(figure.contains("alpha") && !figure.contains("beta"), "{figure}");
 
     peers["rows"][0]["digest"] = "0000000000000001".into();
     write(&peers);
     refused(
         &[&bounce[..], &["--out", &out, "--peers", &file]].concat(),
         &format!(
-            "--peers {file}: first was given another scene 'bounce' than this one; \
+            "--peers {file}: alpha was given another scene 'bounce' than this one; \
              write it anew with tests/peers/run.py"
         ),
     );
