@@ -38,7 +38,7 @@ pub fn page(
     head(&mut text, quick);
     overview(&mut text, measured);
     if let Some(peers) = peers {
-        peers::chapter(&mut text, peers);
+        peers::chapter(&mut text, measured, peers);
     }
     for scene in measured {
         chapter(&mut text, scene, peers);

@@ -29,15 +29,26 @@ pub fn read(file: &Path, measured: &[Measured]) -> Result<Peers, Error> {
 }
 
 /// A part of the page that says what the programs are.
-pub fn chapter(text: &mut String, peers: &Peers) {
+pub fn chapter(text: &mut String, measured: &[Measured], peers: &Peers) {
     let _ = writeln!(
         text,
         "## Other programs\n\nMeasured by `tests/peers/run.py` on {}. Each of them was given the \
          same balls, ground and laws, as far as it knows them, and is held to the same truth; its \
          rows stand below those of this program. `helped` means that a law is applied from \
-         outside. A wide error that does not fall with the step is another law, not a bad method. \
+         outside. An error that does not fall with the step is mostly another law, not a bad method. \
          Where a program cannot express a scene, or failed, the row says why.\n",
         peers.made
+    );
+    let on = |scene: &&Measured| better(scene, peers).is_some_and(|better| better.is_empty());
+    let (front, off): (Vec<&Measured>, Vec<&Measured>) = measured.iter().partition(on);
+    let names = off.iter().map(|scene| scene.prepared.scene.id).collect::<Vec<_>>().join(", ");
+    let _ = writeln!(
+        text,
+        "Event-driven is on the Pareto front of error against run time, against every method and \
+         program, in {} of {} scenes{}{names}.\n",
+        front.len(),
+        measured.len(),
+        if off.is_empty() { "" } else { "; not in " }
     );
     for program in &peers.programs {
         let state = match (&program.version, &program.problem) {
@@ -74,8 +85,8 @@ pub fn lines(text: &mut String, scene: &Measured, peers: &Peers, shown_ms: &[f64
     }
 }
 
-/// Whether event-driven is on the Pareto front of error against run time, against everybody.
-pub fn front(scene: &Measured, peers: &Peers) -> Option<String> {
+/// Who keeps event-driven off the Pareto front of error against run time, in steps or elsewhere.
+fn better(scene: &Measured, peers: &Peers) -> Option<Vec<String>> {
     let exact = scene.rows.iter().find(|timed| timed.row.method.step_ms().is_none())?;
     let (error_m, cost) = (exact.row.error_m?, exact.cpu_us?.median);
     let rows = peers.of_scene(scene.prepared.scene.id);
@@ -91,6 +102,12 @@ pub fn front(scene: &Measured, peers: &Peers) -> Option<String> {
             better.push(named(timed.row.method.name().to_owned(), timed.row.method.step_ms()));
         }
     }
+    Some(better)
+}
+
+/// Whether event-driven is on the Pareto front of error against run time, against everybody.
+pub fn front(scene: &Measured, peers: &Peers) -> Option<String> {
+    let better = better(scene, peers)?;
     let ran = peers.of_scene(scene.prepared.scene.id).filter(|row| row.point().is_some()).count();
     Some(if better.is_empty() {
         format!(
