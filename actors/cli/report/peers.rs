@@ -35,7 +35,7 @@ pub fn chapter(text: &mut String, measured: &[Measured], peers: &Peers) {
         "## Other programs\n\nMeasured by `tests/peers/run.py` on {}. Each of them was given the \
          same balls, ground and laws, as far as it knows them, and is held to the same truth; its \
          rows stand below those of this program. `helped` means that a law is applied from \
-         outside. An error that does not fall with the step is mostly another law, not a bad method. \
+         outside. An error that does not fall with the step is mostly another law. \
          Where a program cannot express a scene, or failed, the row says why.\n",
         peers.made
     );
