@@ -5,16 +5,19 @@
 //! then estimated. Nothing here reads a clock: whoever calls may time [`Prepared::watch`].
 
 mod answers;
+mod case;
 mod catalogue;
 mod chaos;
 mod hop;
 mod idle;
 mod method;
 mod order;
+mod peers;
 mod stability;
 mod starts;
 mod trial;
 
+pub use case::{CaseBall, CaseStart, Ground, GroundPlane, Law, Part, Rub, SceneCase};
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
 pub use hop::{Form, Hop, hop, solver_hop};
@@ -23,6 +26,7 @@ pub use method::{
     IN_PARTS, INTEGRATORS, Method, STEPS_MS, SUB_STEPS, Tolerances, all_methods, stepping,
 };
 pub use order::{computations, fitted_order, on_the_front, orders};
+pub use peers::{PeerRow, PeerStatus, Peers, PeersError, Program, cheaper_and_better};
 pub use stability::{
     CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, WallRow,
     hertz_rows, rest_rows, spring_cell, spring_limit, wall_rows,

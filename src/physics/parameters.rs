@@ -71,6 +71,8 @@ pub struct Parameters {
     pub multi_contact: MultiContact,
     /// From where on the exact solver is content with less than a closed form.
     pub exact: ExactTolerances,
+    /// Whether a carried ball may be thrown up.
+    pub flight: bool,
 }
 
 impl Parameters {
@@ -97,6 +99,7 @@ impl Parameters {
             cushion_law: CushionLaw::default(),
             multi_contact: MultiContact::default(),
             exact: ExactTolerances::default(),
+            flight: true,
         }
     }
 
@@ -125,6 +128,7 @@ impl Parameters {
         parameters.cushion_law = settings.cushion_law;
         parameters.multi_contact = settings.multi_contact;
         parameters.exact = settings.exact;
+        parameters.flight = settings.flight;
         if settings.cushion_law == CushionLaw::Mathavan2010 {
             parameters.cushion = mathavan_2010::CUSHION;
         }

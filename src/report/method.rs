@@ -70,9 +70,9 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Method::EventDriven => "event-driven",
-            Method::Tolerances(Tolerances::Coarse) => "event-driven, coarse",
-            Method::Tolerances(Tolerances::Fine) => "event-driven, fine",
-            Method::Tolerances(Tolerances::LessFine) => "event-driven, less fine",
+            Method::Tolerances(Tolerances::Coarse) => "event-driven coarse",
+            Method::Tolerances(Tolerances::Fine) => "event-driven fine",
+            Method::Tolerances(Tolerances::LessFine) => "event-driven less fine",
             Method::FixedStep { integrator, .. } => match integrator {
                 Integrator::EulerCromer => "euler-cromer",
                 Integrator::Verlet => "velocity-verlet",
@@ -80,10 +80,10 @@ impl Method {
                 Integrator::Rk4 => "rk4",
             },
             Method::SubSteps { integrator, .. } => match integrator {
-                Integrator::EulerCromer => "euler-cromer, sub-steps",
-                Integrator::Verlet => "velocity-verlet, sub-steps",
-                Integrator::PositionVerlet => "position-verlet, sub-steps",
-                Integrator::Rk4 => "rk4, sub-steps",
+                Integrator::EulerCromer => "euler-cromer sub-steps",
+                Integrator::Verlet => "velocity-verlet sub-steps",
+                Integrator::PositionVerlet => "position-verlet sub-steps",
+                Integrator::Rk4 => "rk4 sub-steps",
             },
         }
     }

@@ -149,13 +149,13 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "step_s = 0.004\n",
         "4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, sub_steps, \
          profile, ball_law, cushion_law, multi_contact, hop_m_s, lasting_step_ms, gravity_m_s2, \
-         ball_friction, contact_back_dating, thread; did you mean step_ms?",
+         ball_friction, flight, contact_back_dating, thread; did you mean step_ms?",
     );
     after_head(
         "gravity = 9.81\n",
         "4: physics.gravity = 9.81: physics has the keys solver, step_ms, integrator, sub_steps, \
          profile, ball_law, cushion_law, multi_contact, hop_m_s, lasting_step_ms, gravity_m_s2, \
-         ball_friction, contact_back_dating, thread; did you mean gravity_m_s2?",
+         ball_friction, flight, contact_back_dating, thread; did you mean gravity_m_s2?",
     );
     after_head(
         "solver = \"exact\"\n",

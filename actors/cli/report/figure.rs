@@ -1,7 +1,8 @@
 //! Figures: errors against steps and against run time, on logarithmic scales.
 
 use super::measure::{Measured, Timed};
-use hapticbillard::report::{self, Growth, Status};
+use super::peers::{self, Curve};
+use hapticbillard::report::{self, Growth, PeerRow, Peers, Status};
 use hapticbillard_actors::error::Error;
 use plotters::prelude::*;
 use std::fmt::Display;
@@ -20,14 +21,17 @@ const LINES: [(&str, RGBColor); 6] = [
     ("velocity-verlet", RGBColor(0, 114, 178)),
     ("position-verlet", RGBColor(86, 180, 233)),
     ("rk4", RGBColor(0, 158, 115)),
-    ("euler-cromer, sub-steps", RGBColor(230, 159, 0)),
-    ("velocity-verlet, sub-steps", RGBColor(204, 121, 167)),
+    ("euler-cromer sub-steps", RGBColor(230, 159, 0)),
+    ("velocity-verlet sub-steps", RGBColor(204, 121, 167)),
 ];
 /// The exact solver with other tolerances: name, colour and size of the mark.
 const EXACT: [(&str, RGBColor, u32); 2] = [
-    ("event-driven, coarse", RGBColor(150, 150, 150), 5),
-    ("event-driven, fine", RGBColor(80, 80, 80), 3),
+    ("event-driven coarse", RGBColor(150, 150, 150), 5),
+    ("event-driven fine", RGBColor(80, 80, 80), 3),
 ];
+/// Other programs' colours.
+const OTHERS: [RGBColor; 4] =
+    [RGBColor(140, 20, 20), RGBColor(110, 60, 160), RGBColor(60, 110, 20), RGBColor(130, 110, 60)];
 
 fn failed(error: impl Display) -> Error {
     Error::Output(std::io::Error::other(format!("a figure could not be drawn: {error}")))
@@ -55,7 +59,13 @@ fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 }
 
 /// Error against step, against processor time and against computations.
-pub fn scene(measured: &Measured) -> Result<String, Error> {
+pub fn scene(measured: &Measured, peers: Option<&Peers>) -> Result<String, Error> {
+    let id = measured.prepared.scene.id;
+    let curves = |along: fn(&PeerRow) -> Option<f64>| {
+        peers.map_or_else(Vec::new, |peers| peers::curves(peers, id, along))
+    };
+    let others_by_step = curves(|row| row.step_ms);
+    let others_by_time = curves(|row| row.point().map(|point| point.1));
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -65,16 +75,18 @@ pub fn scene(measured: &Measured) -> Result<String, Error> {
         let (charts, key) = area.split_vertically(area.dim_in_pixel().1 - KEY_PIXELS);
         let panels = charts.split_evenly((1, 3));
         if let [by_step, by_time, by_work] = &panels[..] {
-            panel(by_step, measured, "step [ms]", |timed| timed.row.method.step_ms())?;
-            panel(by_time, measured, "processor time per simulated second [µs]", |timed| {
+            let step = |timed: &Timed| timed.row.method.step_ms();
+            panel(by_step, measured, &others_by_step, "step [ms]", step)?;
+            let time = "processor time per simulated second [µs]";
+            panel(by_time, measured, &others_by_time, time, |timed| {
                 timed.cpu_us.map(|cpu| cpu.median)
             })?;
-            panel(by_work, measured, "computations per simulated second", |timed| {
+            panel(by_work, measured, &[], "computations per simulated second", |timed| {
                 let simulated_s = measured.prepared.until_s * timed.starts.max(1) as f64;
                 Some(report::computations(timed.row.work) as f64 / simulated_s)
             })?;
         }
-        legend(&key)?;
+        legend(&key, &others_by_time)?;
         area.present().map_err(failed)?;
     }
     Ok(text)
@@ -83,7 +95,7 @@ pub fn scene(measured: &Measured) -> Result<String, Error> {
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 /// Which colour is which method, below the panels and over no data.
-fn legend(area: &Area<'_>) -> Result<(), Error> {
+fn legend(area: &Area<'_>, others: &[Curve<'_>]) -> Result<(), Error> {
     let marks = LINES.iter().map(|(name, colour)| (*name, *colour, 3_u32));
     let all = std::iter::once(("event-driven", BLACK, 6)).chain(EXACT).chain(marks);
     let mut x = 16;
@@ -94,7 +106,21 @@ fn legend(area: &Area<'_>) -> Result<(), Error> {
         area.draw(&Circle::new((x + 11, y), size, colour.filled())).map_err(failed)?;
         let style = ("sans-serif", 13).into_font().color(&BLACK);
         area.draw(&Text::new(name, (x + 28, y - 6), style)).map_err(failed)?;
-        x += 40 + 7 * name.len() as i32;
+        x += 36 + 6 * name.len() as i32;
+    }
+    let mut seen = Vec::new();
+    for curve in others {
+        // The settings of a program share a colour and a name.
+        if seen.contains(&curve.number) {
+            continue;
+        }
+        seen.push(curve.number);
+        let colour = OTHERS[curve.number % OTHERS.len()];
+        let y = KEY_PIXELS as i32 / 2;
+        area.draw(&Cross::new((x + 11, y), 4, colour.stroke_width(1))).map_err(failed)?;
+        let style = ("sans-serif", 13).into_font().color(&BLACK);
+        area.draw(&Text::new(curve.name, (x + 20, y - 6), style)).map_err(failed)?;
+        x += 30 + 6 * curve.name.len() as i32;
     }
     Ok(())
 }
@@ -102,6 +128,7 @@ fn legend(area: &Area<'_>) -> Result<(), Error> {
 fn panel(
     area: &Area<'_>,
     measured: &Measured,
+    curves: &[Curve<'_>],
     what: &str,
     along: impl Fn(&Timed) -> Option<f64>,
 ) -> Result<(), Error> {
@@ -111,9 +138,10 @@ fn panel(
     };
     let drawn = |timed: &Timed| Some((along(timed)?, error_of(timed)?));
     let points: Vec<(f64, f64)> = measured.rows.iter().filter_map(drawn).collect();
+    let others = || curves.iter().flat_map(|curve| &curve.points);
     let errors = measured.rows.iter().filter_map(error_of);
-    let xs = decades(points.iter().map(|point| point.0));
-    let ys = decades(errors);
+    let xs = decades(points.iter().chain(others()).map(|point| point.0));
+    let ys = decades(errors.chain(others().map(|point| point.1.max(LEAST_M))));
     let mut chart = ChartBuilder::on(area)
         .margin(10)
         .x_label_area_size(40)
@@ -136,6 +164,13 @@ fn panel(
         let points: Vec<(f64, f64)> = of(method).filter_map(drawn).collect();
         let line = LineSeries::new(points, colour.filled().stroke_width(2)).point_size(3);
         chart.draw_series(line).map_err(failed)?;
+    }
+    for curve in curves {
+        let colour = OTHERS[curve.number % OTHERS.len()];
+        let points = || curve.points.iter().map(|(x, error)| (*x, error.max(LEAST_M)));
+        chart.draw_series(LineSeries::new(points(), colour.stroke_width(1))).map_err(failed)?;
+        let marks = points().map(|point| Cross::new(point, 3, colour.stroke_width(1)));
+        chart.draw_series(marks).map_err(failed)?;
     }
     for (method, colour, size) in std::iter::once(("event-driven", BLACK, 6)).chain(EXACT) {
         for timed in of(method) {

@@ -59,6 +59,11 @@ pub struct Spread {
     pub most: f64,
 }
 
+/// Most starts of a scene.
+pub fn most_starts(quick: bool) -> usize {
+    if quick { QUICK_STARTS } else { usize::MAX }
+}
+
 /// Patience for so much processor time [s].
 pub fn budget(seconds: f64) -> impl FnMut() -> bool {
     let begin = thread_cpu_time();
@@ -67,8 +72,7 @@ pub fn budget(seconds: f64) -> impl FnMut() -> bool {
 
 /// Measures a scene.
 pub fn scene(scene: Scene, quick: bool, bar: &ProgressBar) -> Result<Measured, Error> {
-    let starts = if quick { QUICK_STARTS } else { usize::MAX };
-    let prepared = Prepared::new(scene, starts)?;
+    let prepared = Prepared::new(scene, most_starts(quick))?;
     let least_ms = scene.least_step_ms[usize::from(!quick)];
     let row_s = if quick { QUICK_ROW_S } else { ROW_S };
     let mut rows: Vec<Timed> = Vec::new();

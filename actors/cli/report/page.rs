@@ -8,9 +8,10 @@ mod stability;
 use super::figure;
 use super::left_out::Line;
 use super::measure::{Measured, Timed};
+use super::peers;
 use super::players::Players;
 use super::stability::Table;
-use hapticbillard::report::{Method, Status};
+use hapticbillard::report::{Method, Peers, Status};
 use hapticbillard_actors::files::{new_recording_name, processor_name};
 use std::fmt::Write;
 
@@ -25,6 +26,7 @@ use say;
 /// The whole page.
 pub fn page(
     measured: &[Measured],
+    peers: Option<&Peers>,
     table: &Table,
     left_out: &[Line],
     players: &Players,
@@ -33,9 +35,12 @@ pub fn page(
     let mut text = String::new();
     head(&mut text, quick);
     glance::glance(&mut text, measured);
+    if let Some(peers) = peers {
+        peers::chapter(&mut text, measured, peers);
+    }
     scene::how_to_read(&mut text);
     for scene in measured {
-        scene::chapter(&mut text, scene);
+        scene::chapter(&mut text, scene, peers);
     }
     stability::chaos(&mut text, table);
     stability::chapter(&mut text, table);
@@ -102,7 +107,7 @@ fn named(method: Method) -> String {
 }
 
 /// An error as a number.
-fn error(value: Option<f64>) -> String {
+pub(super) fn error(value: Option<f64>) -> String {
     value.map_or_else(|| String::from("-"), |value| format!("{value:.1e}"))
 }
 

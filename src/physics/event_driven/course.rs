@@ -130,7 +130,8 @@ impl EventDriven {
             return;
         };
         let lift = start.velocity.dot(normal);
-        if lift > self.parameters.exact.hop_below(law.restitution, normal.z) {
+        let least = self.parameters.exact.hop_below(law.restitution, normal.z);
+        if self.parameters.flight && lift > least {
             self.bodies[index].held.clear();
             let next = motion::free(&start, &self.bodies[index].ball, &self.parameters);
             self.turn_into(index, next);

@@ -3,7 +3,8 @@
 use super::{cost, error, exact, figure, named, say};
 use crate::cli::report::csv;
 use crate::cli::report::measure::{Measured, Timed};
-use hapticbillard::report::{self, STEPS_MS, Status};
+use crate::cli::report::peers;
+use hapticbillard::report::{self, Peers, STEPS_MS, Status};
 use std::fmt::Write;
 
 /// The steps that the page shows; the rest is in the CSV [ms].
@@ -29,7 +30,7 @@ pub fn how_to_read(text: &mut String) {
 }
 
 /// The chapter of a scene.
-pub fn chapter(text: &mut String, scene: &Measured) {
+pub fn chapter(text: &mut String, scene: &Measured, peers: Option<&Peers>) {
     let prepared = &scene.prepared;
     let about = &prepared.scene;
     say!(text, "## {}\n", about.title);
@@ -51,7 +52,19 @@ pub fn chapter(text: &mut String, scene: &Measured) {
         about.norm.words()
     );
     table(text, scene);
+    if let Some(peers) = peers {
+        say!(
+            text,
+            "\n| program | step [ms] | error [m] | order | us per s: median (min to max) | work | \
+             status |"
+        );
+        say!(text, "|---|---|---|---|---|---|---|");
+        peers::lines(text, scene, peers, &SHOWN_MS);
+    }
     say!(text, "\n{}\n", reading(scene));
+    if let Some(front) = peers.and_then(|peers| peers::front(scene, peers)) {
+        say!(text, "{front}\n");
+    }
 }
 
 fn table(text: &mut String, scene: &Measured) {
@@ -132,13 +145,11 @@ fn reading(scene: &Measured) -> String {
              are found exactly, so that hardly an error is left to fall: no order can be told."
         }
     }));
-    if let (false, Some(position)) = (prepared.scene.smooth, order("position-verlet")) {
-        if position < 1.5 {
-            sentences.push(String::from(
-                "Verlet in its position form is of first order wherever a force begins or ends at \
+    if !prepared.scene.smooth && order("position-verlet").is_some_and(|order| order < 1.5) {
+        sentences.push(String::from(
+            "Verlet in its position form is of first order wherever a force begins or ends at \
                  once, because the way of the last step knows of it half a step late.",
-            ));
-        }
+        ));
     }
     sentences.extend(parts_help(scene));
     if let Some(timed) = exact(scene) {
@@ -171,7 +182,7 @@ fn parts_help(scene: &Measured) -> Option<String> {
         .iter()
         .filter_map(|step| {
             let plain = find("velocity-verlet", *step)?;
-            let parts = find("velocity-verlet, sub-steps", *step)?;
+            let parts = find("velocity-verlet sub-steps", *step)?;
             (plain.0 > 1e-12).then_some((parts.0 / plain.0, parts.1 / plain.1))
         })
         .collect();
@@ -193,7 +204,7 @@ fn parts_help(scene: &Measured) -> Option<String> {
 fn tolerances(scene: &Measured) -> Option<String> {
     let find = |name: &str| scene.rows.iter().find(|timed| timed.row.method.name() == name);
     let own = exact(scene)?;
-    let others = [find("event-driven, coarse")?, find("event-driven, fine")?];
+    let others = [find("event-driven coarse")?, find("event-driven fine")?];
     let same =
         |timed: &&&Timed| (timed.row.error_m, timed.row.work) == (own.row.error_m, own.row.work);
     if others.iter().filter(same).count() == others.len() {
