@@ -6,10 +6,15 @@ PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcu
 	libxrandr2 libxkbcommon-x11-0 pkg-config
 CARGO := cargo
 
-.PHONY: play test window peers setup early featureless lints everything documents package
+.PHONY: play test report window peers setup early featureless lints everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
+
+# Measures everything of tests/report anew: about ten minutes of a quiet machine.
+report:
+	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
+	  report --out tests/report
 
 # A whole game with real mouse and key events, in real time on a virtual display.
 window: setup

@@ -186,6 +186,14 @@ pub fn processor_name() -> String {
     name.unwrap_or_else(|| format!("an unnamed {} processor", std::env::consts::ARCH))
 }
 
+/// The most memory that a process has had so far [KiB], from its status file under /proc; none if
+/// it has ended or the system has no such file.
+pub fn peak_memory_kib(status: &str) -> Option<u64> {
+    let text = fs::read_to_string(status).ok()?;
+    let line = text.lines().find(|line| line.starts_with("VmHWM"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}
+
 /// A file name for a recording that begins now; names sort by age.
 pub fn new_recording_name() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();

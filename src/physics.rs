@@ -42,7 +42,7 @@ pub use laws::cue_ball::cue_contact;
 pub use ledger::{Ledger, Momentum};
 pub use parameters::{Contact, Parameters};
 pub use profiles::Equipment;
-pub use settings::{Integrator, PhysicsSettings, Profile, SolverKind};
+pub use settings::{ExactTolerances, Integrator, PhysicsSettings, Profile, SolverKind};
 pub use setup::{Setup, SetupError};
 pub use shot::{Shot, Strike, Trajectory};
 pub use simulation::Simulation;

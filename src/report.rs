@@ -20,13 +20,15 @@ mod trial;
 pub use case::{CaseBall, CaseStart, Ground, GroundPlane, Law, Part, Rub, SceneCase};
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
-pub use hop::{Form, Hop, hop};
+pub use hop::{Form, Hop, hop, solver_hop};
 pub use idle::{Idle, idle};
-pub use method::{METHODS, Method, STEPS_MS};
-pub use order::{all_methods, fitted_order, on_the_front, orders};
+pub use method::{
+    IN_PARTS, INTEGRATORS, Method, STEPS_MS, SUB_STEPS, Tolerances, all_methods, stepping,
+};
+pub use order::{computations, fitted_order, on_the_front, orders};
 pub use peers::{PeerRow, PeerStatus, Peers, PeersError, Program, cheaper_and_better};
 pub use stability::{
-    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
-    rest_rows, spring_cell, spring_limit,
+    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, WallRow,
+    hertz_rows, rest_rows, spring_cell, spring_limit, wall_rows,
 };
-pub use trial::{Failure, Prepared, Row, Status, Track, judge, left_out};
+pub use trial::{Failure, Patience, Prepared, Row, Status, Track, judge, left_out};

@@ -14,6 +14,8 @@ mod page;
 
 mod peers;
 
+mod players;
+
 mod stability;
 
 use super::{Status, json_line, progress};
@@ -86,6 +88,7 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let table = stability::measure(args.quick, &bar)?;
     bar.finish_and_clear();
     let idle = left_out::measure()?;
+    let players = players::measure(if args.quick { 4 } else { 40 })?;
 
     let write = |name: &str, text: &str| write_whole(&args.out.join(name), text.as_bytes());
     write("errors.csv", &csv::errors(&measured, peers))?;
@@ -94,7 +97,7 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
         write(&figure::name(scene), &figure::scene(scene, peers)?)?;
     }
     write(figure::CHAOS, &figure::growth(&table.growth)?)?;
-    write("REPORT.md", &page::page(&measured, peers, &table, &idle, args.quick))?;
+    write("REPORT.md", &page::page(&measured, peers, &table, &idle, &players, args.quick))?;
     print(args, &measured, out)
 }
 

@@ -69,6 +69,10 @@ pub struct SimulateArgs {
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
 
+    /// In place of the scene's parts of a step of fixed-step in which something happens.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub sub_steps: Option<u32>,
+
     /// Stops after so many simulated seconds.
     #[arg(long, value_name = "SECONDS", value_parser = positive, conflicts_with = "until_rest")]
     pub until: Option<f64>,
@@ -116,6 +120,8 @@ pub enum IntegratorName {
     EulerCromer,
     /// Velocity Verlet.
     Verlet,
+    /// Verlet in its position form.
+    PositionVerlet,
     /// The classical Runge-Kutta method of fourth order.
     Rk4,
 }
@@ -145,10 +151,14 @@ fn override_physics(args: &SimulateArgs, physics: &mut PhysicsSettings) {
     if let Some(step_ms) = args.step_ms {
         physics.step_ms = step_ms;
     }
+    if let Some(sub_steps) = args.sub_steps {
+        physics.sub_steps = sub_steps;
+    }
     if let Some(integrator) = args.integrator {
         physics.integrator = match integrator {
             IntegratorName::EulerCromer => Integrator::EulerCromer,
             IntegratorName::Verlet => Integrator::Verlet,
+            IntegratorName::PositionVerlet => Integrator::PositionVerlet,
             IntegratorName::Rk4 => Integrator::Rk4,
         };
     }
@@ -160,8 +170,11 @@ fn check_step(args: &SimulateArgs, physics: &PhysicsSettings) -> Result<(), Erro
     if physics.solver == SolverKind::FixedStep || args.bench.is_some() {
         return Ok(());
     }
-    let given =
-        [("--step-ms", args.step_ms.is_some()), ("--integrator", args.integrator.is_some())];
+    let given = [
+        ("--step-ms", args.step_ms.is_some()),
+        ("--integrator", args.integrator.is_some()),
+        ("--sub-steps", args.sub_steps.is_some()),
+    ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     Err(Error::input(
         option.to_string(),

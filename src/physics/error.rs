@@ -92,6 +92,17 @@ pub enum PhysicsError {
         /// Where everything was.
         state: Box<super::Snapshot>,
     },
+    /// The contacts of one step come to no end.
+    #[error(
+        "the contacts of the step at {time_s} s come to no end, the last of ball {ball}: \
+         something is stuck there; use a smaller step, or solver = \"event-driven\""
+    )]
+    StuckInStep {
+        /// When the step begins [s].
+        time_s: Seconds,
+        /// The ball that was met last.
+        ball: BallId,
+    },
     /// A rack cannot be placed.
     #[error(transparent)]
     Rack(#[from] crate::rack::RackError),

@@ -3,7 +3,8 @@
 //! Time is cut into steps of h; grid time n is n·h, computed as `n · step_ms / 1000`, so that it is
 //! the double nearest to the decimal number and meets the ticks of the logical clock. A step is:
 //! commands, smooth forces and what carries the balls ([`smooth`]), contacts along the straight
-//! paths of the step ([`sweep`]), and what holds at its end ([`finish`]). Under `profile = "2009"`
+//! paths of the step ([`sweep`]), and what holds at its end ([`finish`]). A step in which something
+//! happens may be cut into parts ([`sub_steps`]). Under `profile = "2009"`
 //! the middle part is the paper's own ([`paper_step`]).
 //!
 //! A step is computed when time beyond its start is asked for; facts carry the exact time of the
@@ -22,13 +23,15 @@ pub(super) mod narrow;
 mod paper_step;
 mod smooth;
 pub mod spatial_hash;
+mod sub_steps;
 mod sweep;
 mod tell;
 
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks, tolerance,
+    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks,
+    tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
@@ -54,8 +57,10 @@ pub struct FixedStep {
     ground: Arc<Ground>,
     parameters: Parameters,
     settings: PhysicsSettings,
-    /// Length of a step [s].
+    /// Length of a step, or of the part in hand [s].
     h: Seconds,
+    /// When the step, or the part in hand, began [s].
+    begun: Seconds,
     /// All balls, in ascending order of id.
     bodies: Vec<Body>,
     cue: Option<CueMotion>,
@@ -66,6 +71,8 @@ pub struct FixedStep {
     pending: VecDeque<Fact>,
     /// Facts of the step in hand.
     told: Vec<Fact>,
+    /// A ball that slid begins to roll, or comes to rest, in the step in hand.
+    changes: bool,
     /// Pairs that touched and have not parted, in ascending order.
     touching: Vec<(usize, usize)>,
     /// Something moved since everything last settled.
@@ -132,6 +139,7 @@ impl FixedStep {
             50.0,
             "must lie between 1e-6 and 50",
         )?;
+        sub_steps::check(settings)?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
         let ground = Arc::new(Ground::new(table, cell_m));
@@ -166,12 +174,14 @@ impl FixedStep {
             parameters,
             settings,
             h,
+            begun: 0.0,
             bodies,
             cue: None,
             step: 0,
             commands: VecDeque::new(),
             pending: VecDeque::new(),
             told: Vec::new(),
+            changes: false,
             touching: Vec::new(),
             moved: false,
             rest_since: None,
@@ -307,7 +317,20 @@ impl FixedStep {
 
     /// The whole step.
     fn one_step(&mut self) -> Result<(), PhysicsError> {
-        let start = self.grid(self.step);
+        let (start, end) = (self.grid(self.step), self.grid(self.step + 1));
+        if self.settings.sub_steps > 1 {
+            self.try_step(start, end)?;
+        } else {
+            self.part(start, end)?;
+        }
+        self.step += 1;
+        self.watch_rest();
+        self.track();
+        Ok(())
+    }
+
+    /// A step, or one part of it.
+    fn part(&mut self, start: Seconds, end: Seconds) -> Result<(), PhysicsError> {
         self.work.steps += 1;
         self.begin(start);
 
@@ -316,20 +339,18 @@ impl FixedStep {
 
         // Contacts.
         match self.settings.profile {
-            Profile::Standard => self.sweep(start),
+            Profile::Standard => self.sweep(start)?,
             Profile::Paper2009 => self.paper_contacts(start),
         }
 
         // Where everything is now, and what that means.
-        self.step += 1;
-        self.finish(start)?;
-        self.watch_rest();
-        self.track();
-        Ok(())
+        self.finish(start, end)
     }
 
     /// Remembers where each ball's path begins.
     fn begin(&mut self, start: Seconds) {
+        self.begun = start;
+        self.changes = false;
         for body in &mut self.bodies {
             body.knots.clear();
             if body.in_play() {
@@ -446,6 +467,10 @@ impl Solver for FixedStep {
             hash.vec3(body.velocity);
             hash.vec3(body.angular_velocity);
             hash.quat(body.orientation);
+            if self.settings.integrator == Integrator::PositionVerlet {
+                hash.vec3(body.way.unwrap_or(DVec3::INFINITY));
+                hash.vec3(body.pushed);
+            }
         }
         if let Some(cue) = &self.cue {
             cue.guided.hash(hash);

@@ -3,7 +3,7 @@
 use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
 use super::laws::mathavan_2010;
 use super::laws::speed_friction::FrictionCurve;
-use super::{PhysicsSettings, Profile};
+use super::{ExactTolerances, PhysicsSettings, Profile};
 use crate::mesh::Surface;
 
 /// Restitution and friction of a contact.
@@ -69,6 +69,8 @@ pub struct Parameters {
     pub cushion_law: CushionLaw,
     /// What several contacts at one instant do.
     pub multi_contact: MultiContact,
+    /// From where on the exact solver is content with less than a closed form.
+    pub exact: ExactTolerances,
     /// Whether a carried ball may be thrown up.
     pub flight: bool,
 }
@@ -96,6 +98,7 @@ impl Parameters {
             ball_friction_curve: FrictionCurve::ALCIATORE,
             cushion_law: CushionLaw::default(),
             multi_contact: MultiContact::default(),
+            exact: ExactTolerances::default(),
             flight: true,
         }
     }
@@ -124,6 +127,7 @@ impl Parameters {
         parameters.ball_law = settings.ball_law;
         parameters.cushion_law = settings.cushion_law;
         parameters.multi_contact = settings.multi_contact;
+        parameters.exact = settings.exact;
         parameters.flight = settings.flight;
         if settings.cushion_law == CushionLaw::Mathavan2010 {
             parameters.cushion = mathavan_2010::CUSHION;
@@ -186,6 +190,8 @@ impl Parameters {
             ("cue mass", self.cue_mass_kg),
             ("cue end mass", self.cue_end_mass_kg),
             ("tip radius", self.tip_radius_m),
+            ("hop_m_s", self.exact.hop_m_s),
+            ("lasting_step_ms", self.exact.lasting_step_s),
         ] {
             if !(value.is_finite() && 0.0 < value) {
                 return Err(Setting { key, value, allowed: "must be more than 0" });

@@ -5,9 +5,15 @@
 //! velocity: it takes the way of the last step for it. Pushing a ball out changes that way, so that
 //! the push becomes a speed, push over step; and a velocity that is turned round must be written
 //! back as a made-up last place. Both are tried here beside Verlet in its velocity form, which has
-//! neither trouble. The solver has the velocity form alone.
+//! neither trouble. The solver's own position form is dropped too: under the standard laws it
+//! writes the last place anew, under those of 2009 it takes what pushes the ball out for its way.
 
+use super::starts::{self, R};
+use crate::events::FactSet;
+use crate::ids::BallId;
+use crate::physics::{Parameters, PhysicsError, PhysicsSettings, Simulation};
 use crate::units::Seconds;
+use glam::DVec3;
 
 const GRAVITY_M_S2: f64 = 9.81;
 
@@ -100,4 +106,42 @@ pub fn hop(form: Form, drop_m: f64, restitution: f64, h: Seconds) -> Hop {
         }
     }
     Hop { first_m, truth_m: restitution * restitution * drop_m, at_rest_m }
+}
+
+/// Drops a ball on the cloth of the solver itself.
+///
+/// # Errors
+/// [`PhysicsError`] if it does not get on.
+pub fn solver_hop(
+    settings: &PhysicsSettings,
+    drop_m: f64,
+    restitution: f64,
+) -> Result<Hop, PhysicsError> {
+    let mut parameters = Parameters::of(settings);
+    parameters.cloth.restitution = restitution;
+    let start = starts::ball(0, DVec3::Z * (R + drop_m), DVec3::ZERO, DVec3::ZERO);
+    let mut world =
+        Simulation::with_parameters(&starts::cloth(), vec![start], settings, parameters)?;
+    let falls_s = (2.0 * drop_m / GRAVITY_M_S2).sqrt();
+    let still_s = falls_s * (1.0 + restitution) / (1.0 - restitution) + 0.1;
+    let (mut first_m, mut at_rest_m) = (0.0_f64, 0.0_f64);
+    let mut facts = Vec::new();
+    // The first hop begins after the fall; it is over when it comes down again.
+    let (mut rises, mut over, mut last) = (false, false, drop_m);
+    for look in 1..=(4000.0 * (still_s + 1.0)) as u32 {
+        let at = f64::from(look) / 4000.0;
+        facts.clear();
+        world.advance(at, FactSet::NONE, &mut facts)?;
+        let height = world.sample(BallId(0), at).map_or(f64::NAN, |ball| ball.position.z - R);
+        rises |= at > falls_s && height > last;
+        over |= rises && height < 0.2 * first_m;
+        if rises && !over {
+            first_m = first_m.max(height);
+        }
+        if at > still_s {
+            at_rest_m = at_rest_m.max(height);
+        }
+        last = height;
+    }
+    Ok(Hop { first_m, truth_m: restitution * restitution * drop_m, at_rest_m })
 }

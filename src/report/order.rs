@@ -1,6 +1,5 @@
 //! Orders of convergence, and who is best at what price.
 
-use super::method::Method;
 use super::trial::{Row, Status};
 use crate::physics::Work;
 
@@ -55,34 +54,22 @@ pub fn fitted_order(
     Some(across / along)
 }
 
-/// Everything that was computed, added up.
-fn computations(work: Work) -> u64 {
+/// Everything that was computed, added up: events, tests, contacts, evaluations of forces, closed
+/// forms and looks.
+pub fn computations(work: Work) -> u64 {
     let looks = work.flights + work.spins + work.pocket_tests;
     work.events + work.tests() + work.contacts + work.force_evaluations + looks
 }
 
 /// Whether no other row has a smaller or equal error for less computation, or a smaller one for as
-/// much.
+/// much. Other tolerances of the exact solver are the same method and do not count.
 pub fn on_the_front(row: &Row, rows: &[Row]) -> bool {
     let Some(error) = row.error_m else { return false };
     let own = computations(row.work);
-    rows.iter().all(|other| {
+    let others = rows.iter().filter(|other| other.method.step_ms().is_some());
+    others.into_iter().all(|other| {
         let (Some(off), work) = (other.error_m, computations(other.work)) else { return true };
         let better = off <= error && work <= own && (off < error || work < own);
         other.status != Status::Ok || !better
     })
-}
-
-/// All methods of a scene in the order of the table: event-driven, then each integrator from the
-/// coarsest step to the finest.
-pub fn all_methods() -> Vec<Method> {
-    let mut methods = Vec::new();
-    for integrator in super::METHODS {
-        match integrator {
-            None => methods.push(Method::EventDriven),
-            Some(integrator) => methods
-                .extend(super::STEPS_MS.map(|step_ms| Method::FixedStep { integrator, step_ms })),
-        }
-    }
-    methods
 }

@@ -3,26 +3,31 @@
 mod cases;
 mod hertz;
 mod springs;
+mod wall;
 
 pub use cases::CASES;
 pub use hertz::{HertzRow, hertz_rows};
 pub use springs::{Limit, RATIOS, STIFFNESSES, spring_cell, spring_limit};
+pub use wall::{WallRow, wall_rows};
 
 use super::method::Method;
 use super::starts::{self, R, on_bed};
+use super::trial::Patience;
 use crate::events::FactSet;
 use crate::ids::BallId;
 use crate::physics::{Integrator, PhysicsError, PhysicsSettings, Profile, Simulation};
 use crate::units::Seconds;
 use glam::DVec3;
 
-/// The methods of the table: the exact solver, each integrator at the paper's step, the paper's
-/// own at a finer one.
-pub const COLUMNS: [Method; 5] = [
+/// The methods of the table: the exact solver, each integrator at the paper's step, and the paper's
+/// own with sub-steps and at a finer one.
+pub const COLUMNS: [Method; 7] = [
     Method::EventDriven,
     Method::FixedStep { integrator: Integrator::EulerCromer, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::Verlet, step_ms: 4.0 },
+    Method::FixedStep { integrator: Integrator::PositionVerlet, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::Rk4, step_ms: 4.0 },
+    Method::SubSteps { integrator: Integrator::EulerCromer, step_ms: 4.0 },
     Method::FixedStep { integrator: Integrator::EulerCromer, step_ms: 1.0 },
 ];
 
@@ -46,6 +51,8 @@ pub enum Class {
     Diverges,
     /// The method gave up and said why.
     GivesUp,
+    /// It took longer than it was given.
+    TooSlow,
 }
 
 impl Class {
@@ -57,6 +64,7 @@ impl Class {
             Class::Drifts => "drifts",
             Class::Diverges => "diverges",
             Class::GivesUp => "gives up",
+            Class::TooSlow => "too slow",
         }
     }
 }
@@ -70,7 +78,7 @@ pub struct Case {
     pub title: &'static str,
     /// What the number is.
     pub measures: &'static str,
-    pub(super) run: fn(Method) -> Result<Measured, PhysicsError>,
+    pub(super) run: fn(Method, Patience<'_>) -> Result<Measured, PhysicsError>,
 }
 
 /// Largest errors in the first and second half of a case, over the case's scale.
@@ -78,6 +86,8 @@ pub struct Case {
 pub(super) struct Measured {
     first: f64,
     second: f64,
+    /// When patience ended, if it did [s].
+    stopped_s: Option<Seconds>,
 }
 
 /// A cell of the table.
@@ -92,9 +102,9 @@ pub struct Cell {
 }
 
 impl Case {
-    /// The cell of a method.
-    pub fn cell(&self, method: Method) -> Cell {
-        Cell::of((self.run)(method))
+    /// The cell of a method, as long as `patience` lasts.
+    pub fn cell(&self, method: Method, patience: Patience<'_>) -> Cell {
+        Cell::of((self.run)(method, patience))
     }
 }
 
@@ -116,7 +126,9 @@ impl Cell {
 impl Measured {
     fn cell(self) -> Cell {
         let error = self.first.max(self.second);
-        let class = if !(error < APART) {
+        let class = if self.stopped_s.is_some() {
+            Class::TooSlow
+        } else if !(error < APART) {
             Class::Diverges
         } else if error <= EXACT {
             Class::Exact
@@ -125,13 +137,15 @@ impl Measured {
         } else {
             Class::Bounded
         };
-        Cell { class, error, note: String::new() }
+        let note = self.stopped_s.map(|at| format!("stopped at {at:.3} s")).unwrap_or_default();
+        Cell { class, error, note }
     }
 }
 
-/// Runs a world to `until_s` and takes the error at `looks` times; one that is no number counts as
-/// infinite.
+/// Runs a world, as long as `patience` lasts, to `until_s` and takes the error at `looks` times;
+/// one that is no number counts as infinite.
 fn measure(
+    patience: Patience<'_>,
     mut world: Simulation,
     until_s: Seconds,
     looks: u32,
@@ -141,6 +155,10 @@ fn measure(
     let mut facts = Vec::new();
     for look in 1..=looks {
         let at = until_s * f64::from(look) / f64::from(looks);
+        if !patience() {
+            measured.stopped_s = Some(world.now_s());
+            break;
+        }
         facts.clear();
         world.advance(at, FactSet::NONE, &mut facts)?;
         let now = error(&world, at).abs();
@@ -181,6 +199,9 @@ pub fn rest_rows(lasts_s: Seconds) -> Result<Vec<RestRow>, PhysicsError> {
         ("Euler-Cromer 4 ms, 2009", paper(4.0)),
         ("Euler-Cromer 3.9 ms, 2009", paper(3.9)),
         ("Euler-Cromer 1 ms, 2009", paper(1.0)),
+        ("position Verlet 4 ms, 2009", {
+            PhysicsSettings { integrator: Integrator::PositionVerlet, ..paper(4.0) }
+        }),
     ] {
         let balls = vec![on_bed(0, 0.0, 0.0, DVec3::ZERO, DVec3::ZERO)];
         let mut world = Simulation::from_parts(&starts::cloth(), balls, &settings)?;

@@ -2,7 +2,7 @@
 
 use super::catalogue::{Norm, Scene, Until};
 use super::chaos;
-use super::method::Method;
+use super::method::{Method, Tolerances};
 use crate::ball::{BallPlace, BallState};
 use crate::events::FactSet;
 use crate::physics::sample_shots::Start;
@@ -17,6 +17,9 @@ pub(super) const LOOKS: u32 = 32;
 const FAR_M: f64 = 1e4;
 /// The disturbance that shows how sure a reference is, relative to the first ball's velocity.
 const DISTURBANCE: f64 = 1e-12;
+
+/// The truth where there is no closed form.
+const REFERENCE: Method = Method::Tolerances(Tolerances::Fine);
 
 /// A scene with its table, its starts and the truth.
 pub struct Prepared {
@@ -49,7 +52,12 @@ pub struct Failure {
     pub at_s: Seconds,
     /// How it failed.
     pub how: String,
+    /// Whether it was only stopped because it took too long.
+    pub stopped: bool,
 }
+
+/// Is asked now and then whether a run may go on; whoever has a clock may say no.
+pub type Patience<'a> = &'a mut dyn FnMut() -> bool;
 
 /// What became of a method in a scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +66,8 @@ pub enum Status {
     Ok,
     /// Some starts failed; this is the first of them.
     Failed(Failure),
+    /// It took longer than it was given; this is how far it came.
+    TooSlow(Failure),
     /// It was not run.
     LeftOut(&'static str),
 }
@@ -79,6 +89,19 @@ pub struct Row {
     pub status: Status,
 }
 
+impl Status {
+    /// Whether it took longer than it was given.
+    pub fn is_too_slow(&self) -> bool {
+        matches!(self, Status::TooSlow(_))
+    }
+}
+
+impl Failure {
+    fn at(at_s: Seconds, how: String) -> Self {
+        Failure { at_s, how, stopped: false }
+    }
+}
+
 impl Prepared {
     /// Prepares a scene with at most so many starts.
     ///
@@ -97,7 +120,7 @@ impl Prepared {
         prepared.until_s = match scene.until {
             Until::Time(time) => time,
             Until::Horizon(most_s) => {
-                let start = prepared.simulation(Method::EventDriven, 0)?;
+                let start = prepared.simulation(REFERENCE, 0)?;
                 let other = prepared.disturbed(0)?;
                 chaos::growth_of(start, other, most_s)?.horizon_s
             }
@@ -146,27 +169,43 @@ impl Prepared {
         if let Some((_, state)) = moving {
             state.velocity *= 1.0 + DISTURBANCE;
         }
-        self.world(Method::EventDriven, balls)
+        self.world(REFERENCE, balls)
     }
 
     /// Runs a world to the end of the scene and looks where its balls are.
     ///
     /// # Errors
     /// [`Failure`] if the solver gives up or the balls fly apart.
-    pub fn watch(&self, mut world: Simulation) -> Result<Track, Failure> {
+    pub fn watch(&self, world: Simulation) -> Result<Track, Failure> {
+        self.watch_while(world, &mut || true)
+    }
+
+    /// The same, as long as `patience` lasts.
+    ///
+    /// # Errors
+    /// [`Failure`] if the solver gives up, the balls fly apart or patience ends.
+    pub fn watch_while(
+        &self,
+        mut world: Simulation,
+        patience: Patience<'_>,
+    ) -> Result<Track, Failure> {
         let mut track = Track::default();
         let mut facts = Vec::new();
         for look in 1..=LOOKS {
             let at_s = self.look_s(look);
+            if !patience() {
+                let how = String::from("too slow");
+                return Err(Failure { at_s: world.now_s(), how, stopped: true });
+            }
             facts.clear();
             world
                 .advance(at_s, FactSet::NONE, &mut facts)
-                .map_err(|error| Failure { at_s: world.now_s(), how: error.to_string() })?;
+                .map_err(|error| Failure::at(world.now_s(), error.to_string()))?;
             let balls = world.snapshot(at_s).balls;
             let lost = |ball: &&BallState| !(ball.position.length() < FAR_M);
             if let Some(ball) = balls.iter().find(lost) {
                 let how = format!("diverged: ball {} is not within {FAR_M} m", ball.id);
-                return Err(Failure { at_s, how });
+                return Err(Failure::at(at_s, how));
             }
             track.places = balls.iter().map(|ball| ball.place).collect();
             track.looks.push(balls.iter().map(|ball| ball.position).collect());
@@ -192,9 +231,12 @@ impl Prepared {
             return Ok((Track { looks, places, work: Work::default() }, off));
         }
         let gave_up = |_: Failure| PhysicsError::NeverRests { limit_s: self.until_s };
-        let track = self.watch(self.simulation(Method::EventDriven, start)?).map_err(gave_up)?;
-        let other = self.watch(self.disturbed(start)?).map_err(gave_up)?;
-        let off = self.distance(&track, &other);
+        let track = self.watch(self.simulation(REFERENCE, start)?).map_err(gave_up)?;
+        let disturbed = self.watch(self.disturbed(start)?).map_err(gave_up)?;
+        let less_fine = Method::Tolerances(Tolerances::LessFine);
+        let other = self.watch(self.simulation(less_fine, start)?).map_err(gave_up)?;
+        // Tolerances act in first order, so that halving them again would change as much.
+        let off = self.distance(&track, &disturbed).max(self.distance(&track, &other));
         Ok((track, off))
     }
 
@@ -221,7 +263,7 @@ impl Prepared {
         for (ball, (got, expected)) in ends {
             if got != expected {
                 let how = format!("another outcome: ball {ball} {got:?}, not {expected:?}");
-                return Err(Failure { at_s: self.until_s, how });
+                return Err(Failure::at(self.until_s, how));
             }
         }
         Ok(self.distance(run, truth))
@@ -245,11 +287,15 @@ pub fn judge(prepared: &Prepared, method: Method, runs: &[Result<Track, Failure>
     }
     errors.sort_by(f64::total_cmp);
     let mut error_m = errors.get(errors.len() / 2).copied();
-    if method == Method::EventDriven && !prepared.closed_form() {
-        // It is the reference: its error is how sure that is.
-        error_m = Some(prepared.reference_error_m);
+    if method.step_ms().is_none() && !prepared.closed_form() {
+        // It is, or is nearly, the reference: it cannot be better than that is sure.
+        error_m = error_m.map(|error| error.max(prepared.reference_error_m));
     }
-    let status = first.map_or(Status::Ok, Status::Failed);
+    let status = match first {
+        None => Status::Ok,
+        Some(failure) if failure.stopped => Status::TooSlow(failure),
+        Some(failure) => Status::Failed(failure),
+    };
     Row { scene: prepared.scene.id, method, error_m, order: None, work, status }
 }
 

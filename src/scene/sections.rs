@@ -3,7 +3,9 @@
 use super::reader::{Limits, Section, Source};
 use super::*;
 use crate::ball::{POOL_MASS_KG, POOL_RADIUS_M};
-use crate::physics::{BallLaw, CushionLaw, Integrator, MultiContact, Profile, SolverKind};
+use crate::physics::{
+    BallLaw, CushionLaw, ExactTolerances, Integrator, MultiContact, Profile, SolverKind,
+};
 use glam::DQuat;
 use toml::de::DeTable;
 
@@ -107,10 +109,13 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         "solver",
         "step_ms",
         "integrator",
+        "sub_steps",
         "profile",
         "ball_law",
         "cushion_law",
         "multi_contact",
+        "hop_m_s",
+        "lasting_step_ms",
         "gravity_m_s2",
         "ball_friction",
         "flight",
@@ -119,12 +124,15 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
     ])?;
     let default = PhysicsSettings::default();
     let step = Limits { low: 0.001, high: 50.0, unit: "(ms)", example: "4.0" };
+    let hop = Limits { low: 1e-9, high: 1.0, unit: "(m/s)", example: "5e-3" };
+    let lasting = Limits { low: 1e-3, high: 50.0, unit: "(ms)", example: "0.5" };
     let gravity = Limits { low: 0.0, high: 1000.0, unit: "(m/s², downwards)", example: "9.81" };
     let solvers: [(&[&str], SolverKind); 2] =
         [(&["event-driven"], SolverKind::EventDriven), (&["fixed-step"], SolverKind::FixedStep)];
-    let integrators: [(&[&str], Integrator); 3] = [
+    let integrators: [(&[&str], Integrator); 4] = [
         (&["euler-cromer"], Integrator::EulerCromer),
         (&["verlet"], Integrator::Verlet),
+        (&["position-verlet"], Integrator::PositionVerlet),
         (&["rk4"], Integrator::Rk4),
     ];
     let profiles: [(&[&str], Profile); 2] =
@@ -153,6 +161,14 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
             "add solver = \"fixed-step\", or write profile = \"standard\"",
         ));
     }
+    let sub_steps = section.integer("sub_steps", 1..=10_000)?;
+    if sub_steps.is_some_and(|parts| parts > 1) && profile == Profile::Paper2009 {
+        return Err(section.error(
+            "sub_steps",
+            "under profile \"2009\" a lying ball has a contact in every step",
+            "leave it out and write a smaller step_ms, or write profile = \"standard\"",
+        ));
+    }
     let flight = section.switch("flight")?.unwrap_or(default.flight);
     if !flight && solver == SolverKind::FixedStep {
         return Err(section.error(
@@ -165,10 +181,17 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         solver,
         step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
         integrator: section.choice("integrator", &integrators)?.unwrap_or(default.integrator),
+        sub_steps: sub_steps.map_or(default.sub_steps, |parts| parts as u32),
         profile,
         ball_law: section.choice("ball_law", &ball_laws)?.unwrap_or(default.ball_law),
         cushion_law: section.choice("cushion_law", &cushion_laws)?.unwrap_or(default.cushion_law),
         multi_contact: section.choice("multi_contact", &rules)?.unwrap_or(default.multi_contact),
+        exact: ExactTolerances {
+            hop_m_s: section.number("hop_m_s", hop)?.unwrap_or(default.exact.hop_m_s),
+            lasting_step_s: section
+                .number("lasting_step_ms", lasting)?
+                .map_or(default.exact.lasting_step_s, |step_ms| step_ms / 1000.0),
+        },
         gravity_m_s2: section.number("gravity_m_s2", gravity)?.unwrap_or(default.gravity_m_s2),
         ball_friction: section.switch("ball_friction")?.unwrap_or(default.ball_friction),
         flight,

@@ -16,5 +16,7 @@ mod paper;
 mod same_bits;
 /// Scenes that several physics tests share.
 pub mod scenes;
+/// Steps cut into parts where something happens.
+mod sub_steps;
 /// Seams, edges and slopes of what carries a ball.
 mod surfaces;

@@ -4,9 +4,10 @@
 mod peers;
 
 use crate::physics::scenes::{break_shot, pool, slow};
-use hapticbillard::physics::{Integrator, PhysicsSettings, SolverKind};
+use hapticbillard::physics::{Integrator, PhysicsSettings, Profile, SolverKind};
 use hapticbillard::report::{
     self, CATALOGUE, COLUMNS, Class, Form, Method, Prepared, Row, STIFFNESSES, Scene, Status,
+    Tolerances,
 };
 
 const STEPS_MS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.2, 0.1];
@@ -36,9 +37,8 @@ fn order(id: &str, integrator: Integrator) -> f64 {
 
 #[test]
 fn on_a_spring_each_integrator_reaches_its_order_and_the_exact_solver_rounding() {
-    for method in &COLUMNS[1..4] {
-        let Method::FixedStep { integrator, .. } = *method else { continue };
-        let expected = method.smooth_order().unwrap();
+    for integrator in report::INTEGRATORS {
+        let expected = Method::FixedStep { integrator, step_ms: 1.0 }.smooth_order().unwrap();
         let observed = order("spring_soft", integrator);
         assert!((observed - expected).abs() < 0.25, "{integrator:?}: {observed}");
     }
@@ -58,10 +58,88 @@ fn with_events_euler_cromer_is_of_first_order() {
 
 #[test]
 fn where_balls_meet_each_other_no_integrator_is_better_than_first_order() {
-    for integrator in [Integrator::EulerCromer, Integrator::Verlet, Integrator::Rk4] {
+    for integrator in report::INTEGRATORS {
         for id in ["cut", "cut_cushion"] {
             let observed = order(id, integrator);
             assert!((0.6..1.5).contains(&observed), "{id} {integrator:?}: {observed}");
+        }
+    }
+}
+
+#[test]
+fn sliding_to_rolling_is_second_order_but_for_those_that_learn_of_a_force_late() {
+    for (integrator, expected) in [
+        (Integrator::EulerCromer, 1.0),
+        (Integrator::PositionVerlet, 1.0),
+        (Integrator::Verlet, 2.0),
+        (Integrator::Rk4, 2.0),
+    ] {
+        let observed = order("sliding", integrator);
+        assert!((observed - expected).abs() < 0.3, "{integrator:?}: {observed}");
+    }
+}
+
+#[test]
+fn sub_steps_take_most_of_the_error_of_verlet_and_none_of_euler_cromers() {
+    let prepared = Prepared::new(scene("cut"), 9).unwrap();
+    let left = |integrator| {
+        let step_ms = 4.0;
+        let whole = row(&prepared, Method::FixedStep { integrator, step_ms });
+        let parts = row(&prepared, Method::SubSteps { integrator, step_ms });
+        parts.error_m.unwrap() / whole.error_m.unwrap()
+    };
+    let verlet = left(Integrator::Verlet);
+    assert!(verlet < 0.3, "{verlet}");
+    // Its error lies in the sliding, not in the contact.
+    let euler_cromer = left(Integrator::EulerCromer);
+    assert!(euler_cromer > 0.5, "{euler_cromer}");
+}
+
+#[test]
+fn finer_tolerances_come_nearer_where_something_hops() {
+    let prepared = Prepared::new(scene("cut"), 3).unwrap();
+    let off = |method| row(&prepared, method).error_m.unwrap();
+    let fine = off(Method::Tolerances(Tolerances::Fine));
+    assert!(fine <= off(Method::EventDriven), "{fine}");
+    assert!(off(Method::EventDriven) <= 1e-5);
+}
+
+#[test]
+fn patience_that_ends_stops_a_run_and_a_cell_and_says_where() {
+    let prepared = Prepared::new(scene("cut"), 1).unwrap();
+    let mut looks = 0;
+    let mut twice = || {
+        looks += 1;
+        looks <= 2
+    };
+    let world = prepared.simulation(Method::EventDriven, 0).unwrap();
+    let failure = prepared.watch_while(world, &mut twice).unwrap_err();
+    assert!(failure.stopped && failure.at_s > 0.0 && failure.at_s < prepared.until_s);
+    let row = report::judge(&prepared, Method::EventDriven, &[Err(failure)]);
+    assert!(row.status.is_too_slow(), "{row:?}");
+    let cell = report::CASES[0].cell(Method::EventDriven, &mut || false);
+    assert!(cell.class == Class::TooSlow && !cell.note.is_empty(), "{cell:?}");
+}
+
+#[test]
+fn a_sampled_wall_swings_up_where_theory_says_and_above_what_is_passive() {
+    for row in report::wall_rows() {
+        assert!((row.measured_n_m / row.theory_n_m - 1.0).abs() < 0.01, "{row:?}");
+        assert!(row.theory_n_m > 0.9 * row.passive_n_m, "{row:?}");
+    }
+}
+
+#[test]
+fn the_solvers_position_verlet_hops_under_the_laws_of_2009_alone() {
+    for integrator in report::INTEGRATORS {
+        for profile in [Profile::Standard, Profile::Paper2009] {
+            let method = Method::FixedStep { integrator, step_ms: 1.0 };
+            let settings = PhysicsSettings { profile, ..method.settings() };
+            let hop = report::solver_hop(&settings, 0.1, 0.5).unwrap();
+            let share = hop.first_m / hop.truth_m;
+            let paper = (integrator, profile) == (Integrator::PositionVerlet, Profile::Paper2009);
+            assert_eq!(share > 1.5, paper, "{integrator:?} {profile:?}: {hop:?}");
+            assert!(paper || (0.95..1.05).contains(&share), "{integrator:?}: {hop:?}");
         }
     }
 }
@@ -88,7 +166,7 @@ fn event_driven_is_on_the_front_of_error_and_work_in_every_scene() {
         }
         let prepared = Prepared::new(scene, 1).unwrap();
         let mut rows = vec![row(&prepared, Method::EventDriven)];
-        for integrator in report::METHODS.into_iter().flatten() {
+        for integrator in report::INTEGRATORS {
             rows.extend(in_steps(&prepared, integrator, &[16.0, 4.0, 1.0, 0.2]));
         }
         assert!(report::on_the_front(&rows[0], &rows), "{}: {:?}", scene.id, rows[0]);
@@ -109,7 +187,7 @@ fn a_run_that_flies_apart_stays_in_the_table_and_says_when_and_how() {
 #[test]
 fn springs_become_unstable_where_theory_says() {
     for ratio in report::RATIOS {
-        for integrator in report::METHODS.into_iter().flatten() {
+        for integrator in report::INTEGRATORS {
             let limit = report::spring_limit(integrator, ratio).unwrap();
             assert!((limit.measured - limit.theory).abs() < 1e-3, "{integrator:?} {limit:?}");
         }
@@ -136,11 +214,15 @@ fn however_stiff_a_spring_the_exact_solver_follows_it_to_rounding() {
 #[test]
 fn every_cell_of_the_extremes_is_measured_and_the_exact_solver_diverges_in_none() {
     for case in report::CASES {
-        for method in COLUMNS {
-            let cell = case.cell(method);
+        // Steps of 4 ms take most of a minute to find out that they are stuck.
+        let many_contacts = case.id.starts_with("galperin_1e");
+        let methods = if many_contacts && !slow() { &COLUMNS[..1] } else { &COLUMNS[..] };
+        for method in methods.iter().copied() {
+            let cell = case.cell(method, &mut || true);
             assert!(!cell.error.is_nan(), "{} {method:?}", case.id);
             let fails = matches!(cell.class, Class::Diverges | Class::GivesUp);
-            assert!(!fails, "{} {method:?}: {cell:?}", case.id);
+            let may = many_contacts && method != Method::EventDriven;
+            assert!(may || !fails, "{} {method:?}: {cell:?}", case.id);
         }
     }
 }

@@ -147,15 +147,15 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "step_s = 0.004\n",
-        "4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, profile, \
-         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, flight, \
-         contact_back_dating, thread; did you mean step_ms?",
+        "4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, sub_steps, \
+         profile, ball_law, cushion_law, multi_contact, hop_m_s, lasting_step_ms, gravity_m_s2, \
+         ball_friction, flight, contact_back_dating, thread; did you mean step_ms?",
     );
     after_head(
         "gravity = 9.81\n",
-        "4: physics.gravity = 9.81: physics has the keys solver, step_ms, integrator, profile, \
-         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, flight, \
-         contact_back_dating, thread; did you mean gravity_m_s2?",
+        "4: physics.gravity = 9.81: physics has the keys solver, step_ms, integrator, sub_steps, \
+         profile, ball_law, cushion_law, multi_contact, hop_m_s, lasting_step_ms, gravity_m_s2, \
+         ball_friction, flight, contact_back_dating, thread; did you mean gravity_m_s2?",
     );
     after_head(
         "solver = \"exact\"\n",
@@ -170,12 +170,12 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "integrator = \"euler\"\n",
         "4: physics.integrator = \"euler\": this build knows \"euler-cromer\", \"verlet\", \
-         \"rk4\"; write for example integrator = \"euler-cromer\"",
+         \"position-verlet\", \"rk4\"; write for example integrator = \"euler-cromer\"",
     );
     after_head(
         "integrator = \"rk5\"\n",
         "4: physics.integrator = \"rk5\": this build knows \"euler-cromer\", \"verlet\", \
-         \"rk4\"; did you mean \"rk4\"?",
+         \"position-verlet\", \"rk4\"; did you mean \"rk4\"?",
     );
     after_head(
         "ball_law = \"mathavan\"\n",

@@ -12,6 +12,9 @@ pub fn status(status: &Status) -> (&'static str, String) {
     match status {
         Status::Ok => ("ok", String::new()),
         Status::Failed(failure) => ("failed", format!("at {:.4} s: {}", failure.at_s, failure.how)),
+        Status::TooSlow(failure) => {
+            ("too slow", format!("stopped at {:.4} s after {}", failure.at_s, failure.how))
+        }
         Status::LeftOut(why) => ("left out", (*why).to_string()),
     }
 }
@@ -30,24 +33,25 @@ pub fn number(value: Option<f64>) -> String {
 pub fn errors(measured: &[Measured], peers: Option<&Peers>) -> String {
     let mut text = String::from(
         "scene,method,step_ms,error_name,norm,unit,error,reference,reference_error,\
-         observed_order,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,steps,\
+         observed_order,starts,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,\
+         steps,\
          events,pair_tests,face_tests,contacts,force_evaluations,\
          flights,spins,pocket_tests,status,remark\n",
     );
     for scene in measured {
         let prepared = &scene.prepared;
-        let reference = if prepared.closed_form() { "closed form" } else { "event-driven" };
-        for Timed { row, cpu_us } in &scene.rows {
+        let reference = if prepared.closed_form() { "closed form" } else { "event-driven fine" };
+        for Timed { row, cpu_us, starts } in &scene.rows {
             let work = row.work;
             let (word, remark) = status(&row.status);
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
                 "{},{},{},position,{},m,{},{reference},\
-                 {:e},{},{},{},{},{},{},{},{},{},{},{},{},{},{},\
+                 {:e},{},{starts},{},{},{},{},{},{},{},{},{},{},{},{},{},\
                  {word},{}",
                 row.scene,
-                row.method.name(),
+                quoted(row.method.name()),
                 row.method.step_ms().map(|step| step.to_string()).unwrap_or_default(),
                 quoted(prepared.scene.norm.words()),
                 number(row.error_m),
@@ -78,7 +82,7 @@ pub fn errors(measured: &[Measured], peers: Option<&Peers>) -> String {
 
 /// One row.
 pub fn json(timed: &Timed) -> Value {
-    let Timed { row, cpu_us } = timed;
+    let Timed { row, cpu_us, starts } = timed;
     let (word, remark) = status(&row.status);
     json!({
         "scene": row.scene,
@@ -86,6 +90,7 @@ pub fn json(timed: &Timed) -> Value {
         "step_ms": row.method.step_ms(),
         "error_m": row.error_m,
         "order": row.order,
+        "starts": starts,
         "cpu_us_per_s": cpu_us.map(|cpu| [cpu.median, cpu.least, cpu.most]),
         "work": row.work,
         "status": word,
@@ -103,7 +108,7 @@ pub fn stability(table: &Table) -> String {
                 text,
                 "{},{},{step},{},{:e},{}",
                 row.id,
-                method.name(),
+                quoted(method.name()),
                 cell.class.word(),
                 cell.error,
                 quoted(&cell.note),

@@ -1,5 +1,7 @@
 //! What each shipped scene has and has not, and that what is left out changes no bit.
 
+use hapticbillard::events::FactSet;
+use hapticbillard::physics::{Simulation, Work};
 use hapticbillard::report::{self, Idle};
 use hapticbillard::scene::{PlanKind, PlanLine};
 use hapticbillard::shipped;
@@ -7,6 +9,8 @@ use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
+use std::process::{Command, Stdio};
+use std::time::Instant;
 
 /// How long a scene is run with and without things that have nothing to do [s].
 pub const COMPARED_S: f64 = 3.0;
@@ -23,6 +27,14 @@ pub struct Line {
     pub table_bytes: usize,
     /// Processor time from its text to a world that can be run [ms].
     pub start_ms: f64,
+    /// What its physics computed in the time that was compared.
+    pub work: Work,
+    /// Threads that its actors need, beside those of the pool of tasks.
+    pub threads: usize,
+    /// Features that are built by default and that it does not use.
+    pub unused: Vec<&'static str>,
+    /// A process of its own that runs its physics, if it could be watched.
+    pub process: Option<Process>,
     /// The proof.
     pub idle: Idle,
 }
@@ -32,6 +44,15 @@ impl Line {
     pub fn count(&self, kind: PlanKind) -> usize {
         self.plan.iter().filter(|line| line.kind == kind).count()
     }
+}
+
+/// A process that runs the physics of a scene.
+#[derive(Debug, Clone, Copy)]
+pub struct Process {
+    /// From its start to its end, for a millisecond of simulated time [ms].
+    pub wall_ms: f64,
+    /// The most memory that it had [KiB].
+    pub peak_kib: u64,
 }
 
 /// Measures all shipped scenes.
@@ -52,13 +73,47 @@ fn line(name: &'static str) -> Result<Line, Error> {
     {
         state.velocity = glam::DVec3::new(2.0, 0.3, 0.0);
     }
+    let mut world = Simulation::from_parts(&stage.table, balls.clone(), &stage.scene.physics)?;
+    world.advance(COMPARED_S, FactSet::NONE, &mut Vec::new())?;
+    let plan = stage.scene.plan();
+    let starts =
+        |actor: &str| plan.iter().any(|line| line.kind == PlanKind::Actor && line.name == actor);
+    // The default features, and the actor that is linked by each.
+    let unused = [("renderer", "renderer")].into_iter().filter(|(_, actor)| !starts(actor));
+    let unused = unused.map(|(feature, _)| feature).collect();
+    // The main thread draws; physics has one if the scene asks.
+    let threads = usize::from(starts("renderer")) + usize::from(stage.scene.physics.thread);
     let mesh = &stage.table.mesh;
     Ok(Line {
         name,
-        plan: stage.scene.plan(),
+        work: world.work(),
+        threads,
+        unused,
+        process: process(name),
         faces: mesh.faces.len(),
         table_bytes: size_of_val(&mesh.vertices[..]) + size_of_val(&mesh.faces[..]),
         start_ms,
         idle: report::idle(&stage.table, &balls, &stage.scene.physics, COMPARED_S)?,
+        plan,
     })
+}
+
+/// Starts this program on a scene and watches its memory until it ends. None where the system does
+/// not tell.
+fn process(name: &str) -> Option<Process> {
+    let begin = Instant::now();
+    let mut child = Command::new(std::env::current_exe().ok()?)
+        .args(["simulate", "--scene", name, "--until", "0.001"])
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .ok()?;
+    let file = format!("/proc/{}/status", child.id());
+    let mut peak_kib = None;
+    while child.try_wait().ok()?.is_none() {
+        // Before the program is loaded and once it has ended there is little or nothing to read.
+        peak_kib = peak_kib.max(hapticbillard_actors::files::peak_memory_kib(&file));
+    }
+    Some(Process { wall_ms: begin.elapsed().as_secs_f64() * 1e3, peak_kib: peak_kib? })
 }

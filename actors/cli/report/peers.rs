@@ -98,7 +98,9 @@ fn better(scene: &Measured, peers: &Peers) -> Option<Vec<String>> {
         let (Some(error), Some(cpu)) = (timed.row.error_m, timed.cpu_us) else { continue };
         let dominates = error <= error_m && cpu.median <= cost;
         let differs = error < error_m || cpu.median < cost;
-        if timed.row.status == Status::Ok && dominates && differs {
+        // Its other tolerances are the same method.
+        let other = timed.row.method.step_ms().is_some();
+        if other && timed.row.status == Status::Ok && dominates && differs {
             better.push(named(timed.row.method.name().to_owned(), timed.row.method.step_ms()));
         }
     }
@@ -138,14 +140,15 @@ pub fn csv(text: &mut String, scene: &Measured, peers: &Peers) {
             row.cpu_us_per_s.map_or([None; 3], |times| times.map(Some)).map(number);
         let _ = writeln!(
             text,
-            "{},{},{},position,{},m,{},{},{:e},,{},{median},{least},{most},,,,,,,,,,{},{}",
+            "{},{},{},position,{},m,{},{},{:e},,{},{},{median},{least},{most},,,,,,,,,,{},{}",
             row.scene,
             quoted(&row.method()),
             row.step_ms.map(|step| step.to_string()).unwrap_or_default(),
             quoted(prepared.scene.norm.words()),
             number(row.error_m),
-            if prepared.closed_form() { "closed form" } else { "event-driven" },
+            if prepared.closed_form() { "closed form" } else { "event-driven fine" },
             prepared.reference_error_m,
+            row.starts,
             prepared.until_s,
             row.status.words(),
             quoted(&row.remark),

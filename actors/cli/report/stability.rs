@@ -1,7 +1,10 @@
 //! Measures the chapters on chaos and stability.
 
-use hapticbillard::physics::{Integrator, PhysicsError};
-use hapticbillard::report::{self, Cell, Form, Growth, HertzRow, Hop, Limit, Method, RestRow};
+use super::measure::budget;
+use hapticbillard::physics::{Integrator, PhysicsError, PhysicsSettings, Profile};
+use hapticbillard::report::{
+    self, Cell, Form, Growth, HertzRow, Hop, Limit, Method, RestRow, WallRow,
+};
 use hapticbillard_actors::error::Error;
 use indicatif::ProgressBar;
 
@@ -16,6 +19,9 @@ pub const DROP: (f64, f64) = (0.1, 0.5);
 /// Steps of that drop [ms].
 pub const DROP_STEPS_MS: [f64; 3] = [4.0, 1.0, 0.25];
 
+/// What a cell may take [s].
+const CELL_S: f64 = 5.0;
+
 /// Everything of both chapters.
 pub struct Table {
     /// Cases by methods.
@@ -28,6 +34,10 @@ pub struct Table {
     pub hertz: (f64, Vec<HertzRow>),
     /// What a dropped ball does, by form and step.
     pub hops: Vec<(Form, f64, Hop)>,
+    /// What the solver itself makes of the drop, by integrator, profile and step.
+    pub solver_hops: Vec<(Integrator, Profile, f64, Hop)>,
+    /// How stiff a sampled wall may be.
+    pub wall: Vec<WallRow>,
     /// How disturbances of breaks grow.
     pub growth: Vec<Growth>,
     /// What breaks have in common.
@@ -44,6 +54,8 @@ pub struct Line {
     pub title: String,
     /// What the numbers are.
     pub measures: &'static str,
+    /// Damping over critical, of a spring.
+    pub ratio: Option<f64>,
     /// One for each method.
     pub cells: Vec<(Method, Cell)>,
 }
@@ -63,6 +75,7 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
                 id: format!("spring_{stiffness:e}_{ratio}"),
                 title: format!("spring of {stiffness:e} N/m, damping {ratio}"),
                 measures: "place, over the first displacement, in 1 s",
+                ratio: Some(ratio),
                 cells: report::COLUMNS.map(cell).to_vec(),
             });
             bar.inc(1);
@@ -73,13 +86,16 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
             id: case.id.to_string(),
             title: case.title.to_string(),
             measures: case.measures,
-            cells: report::COLUMNS.map(|method| (method, case.cell(method))).to_vec(),
+            ratio: None,
+            cells: report::COLUMNS
+                .map(|method| (method, case.cell(method, &mut budget(CELL_S))))
+                .to_vec(),
         });
         bar.inc(1);
     }
     let mut limits = Vec::new();
     for ratio in report::RATIOS {
-        for integrator in report::METHODS.into_iter().flatten() {
+        for integrator in report::INTEGRATORS {
             limits.push((integrator, ratio, report::spring_limit(integrator, ratio)?));
         }
     }
@@ -109,8 +125,26 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
         rest,
         hertz: report::hertz_rows(HERTZ_M_S),
         hops: hops.collect(),
+        solver_hops: solver_hops()?,
+        wall: report::wall_rows(),
         growth,
         spread,
         racks,
     })
+}
+
+fn solver_hops() -> Result<Vec<(Integrator, Profile, f64, Hop)>, Error> {
+    let (drop_m, restitution) = DROP;
+    let mut hops = Vec::new();
+    for profile in [Profile::Standard, Profile::Paper2009] {
+        for integrator in report::INTEGRATORS {
+            for step_ms in DROP_STEPS_MS {
+                let method = Method::FixedStep { integrator, step_ms };
+                let settings = PhysicsSettings { profile, ..method.settings() };
+                let hop = report::solver_hop(&settings, drop_m, restitution)?;
+                hops.push((integrator, profile, step_ms, hop));
+            }
+        }
+    }
+    Ok(hops)
 }

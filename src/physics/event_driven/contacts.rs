@@ -78,7 +78,7 @@ impl EventDriven {
             Surface::Cushion(_) => self.parameters.cushion_at(approach),
             _ => self.parameters.surface(surface),
         };
-        let least = tolerance::hop_m_s(material.restitution, normal.z);
+        let least = self.parameters.exact.hop_below(material.restitution, normal.z);
         let slow = material.restitution * approach < least
             || matches!(surface, Surface::Cushion(_)) && approach < tolerance::STICKY_M_S;
         let law = if slow { Law { restitution: 0.0, ..material } } else { material };

@@ -32,7 +32,9 @@ impl EventDriven {
             let reach = radius + tolerance::START_OVERLAP_M;
             for (feature, normal, distance) in self.terrain.near(segment.position, reach) {
                 // What falls on it or leaves it does not lie on it.
-                if normal.z > 1e-9 && segment.velocity.dot(normal).abs() <= tolerance::HOP_M_S {
+                if normal.z > 1e-9
+                    && segment.velocity.dot(normal).abs() <= self.parameters.exact.hop_m_s
+                {
                     carriers.push(feature);
                     // It lies on the first exactly.
                     if carriers.len() == 1 {
@@ -128,7 +130,8 @@ impl EventDriven {
             return;
         };
         let lift = start.velocity.dot(normal);
-        if self.parameters.flight && lift > tolerance::hop_m_s(law.restitution, normal.z) {
+        let least = self.parameters.exact.hop_below(law.restitution, normal.z);
+        if self.parameters.flight && lift > least {
             self.bodies[index].held.clear();
             let next = motion::free(&start, &self.bodies[index].ball, &self.parameters);
             self.turn_into(index, next);

@@ -2,15 +2,14 @@
 //! between surfaces or leans on other balls.
 //!
 //! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
-//! of its own, [`super::pivot`]; all others go on one grid of [`tolerance::LASTING_STEP_S`]. There
-//! a step takes every contact without restitution and with Coulomb's friction, solved jointly.
-//! Either way it emits the quadratic through the velocities at both ends, so that detection, queue
-//! and impacts stay as they are. Normals turn within a step; what that adds or takes is put right
-//! by holding the energy of a ball that leans on nothing else to what friction leaves of it. Error:
-//! second order in the step for a single contact; else first, for the moment of leaving.
-
-mod lie;
-mod single;
+//! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
+//! of its own, [`super::pivot`]; all others go on one grid of
+//! [`lasting_step_s`](crate::physics::ExactTolerances). There a step takes every contact without
+//! restitution and with Coulomb's friction, solved jointly. Either way it emits the quadratic
+//! through the velocities at both ends, so that detection, queue and impacts stay as they are.
+//! Normals turn within a step; what that adds or takes is put right by holding the energy of a ball
+//! that leans on nothing else to what friction leaves of it. Error: second order in the step for a
+//! single contact; else first, for the moment of leaving.
 
 use super::EventDriven;
 use super::predict::Changed;
@@ -170,7 +169,7 @@ impl EventDriven {
     }
 
     fn emit_pieces(&mut self, at: Seconds, group: &[usize]) {
-        let until = after(at);
+        let until = after(at, self.parameters.exact.lasting_step_s);
         let dt = until - at;
         let gravity = DVec3::NEG_Z * self.parameters.gravity_m_s2;
         let mut contacts: SmallVec<[Contacts; 4]> = SmallVec::new();
@@ -360,8 +359,7 @@ impl EventDriven {
 }
 
 /// The next step after `at` of all that go on the grid [s].
-fn after(at: Seconds) -> Seconds {
-    let step = tolerance::LASTING_STEP_S;
+fn after(at: Seconds, step: Seconds) -> Seconds {
     let next = (libm::floor(at / step) + 1.0) * step;
     if next - at < 1e-9 { next + step } else { next }
 }

@@ -103,8 +103,16 @@ pub struct Body {
     pub near_rails: u8,
     /// Rails that it has touched and not parted from, a bit each.
     pub held_rails: u8,
+    /// How far it moved in the last step, for the integrator that knows no velocity [m]; none if
+    /// that would be wrong, and is to be written anew from its velocity.
+    pub way: Option<DVec3>,
+    /// What put it back where it may be, under the paper's laws: no way that it went, but taken for
+    /// one [m].
+    pub pushed: DVec3,
     /// The last step: its start and the contacts within.
     pub knots: SmallVec<[Knot; 3]>,
+    /// Knots of the earlier parts of the step in hand.
+    pub earlier: Vec<Knot>,
 }
 
 impl Body {
@@ -127,7 +135,10 @@ impl Body {
             clear_rails: 0,
             near_rails: 0,
             held_rails: 0,
+            way: None,
+            pushed: DVec3::ZERO,
             knots: SmallVec::new(),
+            earlier: Vec::new(),
         }
     }
 

@@ -101,6 +101,7 @@ impl FixedStep {
         body.velocity = DVec3::ZERO;
         body.angular_velocity = DVec3::ZERO;
         body.motion = Motion::Rest;
+        body.way = None;
         body.asleep = false;
         self.ledger.placed_j += weight_j(body, g);
         self.touching.retain(|(a, b)| *a != index && *b != index);

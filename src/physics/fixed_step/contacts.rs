@@ -56,6 +56,7 @@ impl FixedStep {
             tau - body.path.start,
         );
         body.take(mover);
+        body.way = None;
         body.asleep = false;
         body.path = Path {
             start: tau,
@@ -83,7 +84,7 @@ impl FixedStep {
         let pressed = self.bodies[index].kick.dot(normal).min(0.0);
         let of_velocity = match self.settings.integrator {
             Integrator::EulerCromer => 0.5,
-            Integrator::Verlet | Integrator::Rk4 => 1.0,
+            Integrator::Verlet | Integrator::PositionVerlet | Integrator::Rk4 => 1.0,
         };
         normal * (pressed * (of_velocity - tau / self.h))
     }

@@ -16,9 +16,8 @@ use smallvec::SmallVec;
 const PUSH_OUT_PASSES: usize = 4;
 
 impl FixedStep {
-    /// Ends the step that began at `start`.
-    pub(super) fn finish(&mut self, start: Seconds) -> Result<(), PhysicsError> {
-        let end = self.grid(self.step);
+    /// Ends the step from `start` to `end`.
+    pub(super) fn finish(&mut self, start: Seconds, end: Seconds) -> Result<(), PhysicsError> {
         let mut awake = std::mem::take(&mut self.scratch.awake);
         awake.clear();
         awake.extend((0..self.bodies.len()).filter(|index| self.bodies[*index].active()));

@@ -170,6 +170,7 @@ impl FixedStep {
                 if speed != 0.0 { (change / speed).abs() / (1.0 + restitution) } else { 0.0 };
             let out = normal * change.signum() * (1.0 + restitution) * depth * share.min(1.0);
             path.position = path.at(h) + out;
+            body.pushed += out;
             path.start = h;
             path.velocity = mover.velocity;
         }
@@ -177,6 +178,7 @@ impl FixedStep {
         path.contacts += 1;
         body.path = path;
         body.take(mover);
+        body.way = None;
         body.asleep = false;
         let knot = body.knot(start + touched, body.path.at(touched));
         body.knots.push(knot);
@@ -247,8 +249,11 @@ impl FixedStep {
         self.ledger.momentum.table += given;
 
         // p' = d p above the surface (section 2.2.1).
-        let end = position + normal * ((1.0 + restitution) * depth);
+        let out = normal * ((1.0 + restitution) * depth);
+        let end = position + out;
         body.take(&mover);
+        body.way = None;
+        body.pushed += out;
         body.path.position = end;
         body.path.start = h;
         body.path.velocity = mover.velocity;

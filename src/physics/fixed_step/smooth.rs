@@ -2,6 +2,7 @@
 
 use super::FixedStep;
 use super::body::{Body, Path, Support};
+use crate::ball::Motion;
 use crate::physics::laws::cloth::{self, Carrying};
 use crate::physics::laws::cluster::{self, Touch};
 use crate::physics::laws::{Impact, Mover};
@@ -30,7 +31,7 @@ impl FixedStep {
     fn smooth_ball(&mut self, index: usize) {
         self.work.force_evaluations += match self.settings.integrator {
             Integrator::EulerCromer => 1,
-            Integrator::Verlet => 2,
+            Integrator::Verlet | Integrator::PositionVerlet => 2,
             Integrator::Rk4 => 4,
         };
         let h = self.h;
@@ -63,7 +64,7 @@ impl FixedStep {
         } else {
             SmallVec::new()
         };
-        let Impact { impulse, mut loss_j, .. } = self.carry(&mut mover, &carriers);
+        let Impact { impulse, sticks, mut loss_j } = self.carry(&mut mover, &carriers);
         if let [support] = &carriers[..] {
             // What the step's forces press in comes from no height and is no loss.
             let pressed = force_kick.dot(support.normal).min(0.0);
@@ -82,9 +83,15 @@ impl FixedStep {
             _ if rests => DVec3::ZERO,
             Integrator::EulerCromer => mover.velocity,
             Integrator::Verlet | Integrator::Rk4 => free.displacement / h + 0.5 * change,
+            // Its way is a velocity half a step ago, so that a force moves it by all of its kick.
+            Integrator::PositionVerlet => free.displacement / h + change,
         };
-        for support in &carriers {
-            path_velocity -= support.normal * path_velocity.dot(support.normal).min(0.0);
+        for Support { normal, .. } in &carriers {
+            path_velocity -= *normal * path_velocity.dot(*normal).min(0.0);
+            if self.settings.integrator == Integrator::PositionVerlet {
+                // Its last way knows nothing of what carries the ball since.
+                path_velocity += *normal * (mover.velocity - path_velocity).dot(*normal);
+            }
         }
         // It would have fallen there within the step.
         let mut position = body.position;
@@ -94,10 +101,48 @@ impl FixedStep {
             }
         }
 
+        let stops = mover.velocity == DVec3::ZERO && before.velocity != DVec3::ZERO;
+        self.changes |= stops || (sticks && self.bodies[index].motion == Motion::Sliding);
+        let mut way = None;
+        if self.settings.integrator == Integrator::PositionVerlet {
+            let slid = mover.velocity;
+            let plain = position == self.bodies[index].position && carriers.len() < 2;
+            if plain && mover.velocity != DVec3::ZERO {
+                way = Some(path_velocity * h);
+                mover.velocity = self.told_by_ways(index, path_velocity, &mover, change, &carriers);
+            }
+            let off = mover.velocity - slid;
+            self.ledger.integration_j += mass * off.dot(slid + 0.5 * off);
+            self.ledger.momentum.smooth += mass * off;
+        }
+
         let body = &mut self.bodies[index];
+        body.way = way;
+        body.pushed = DVec3::ZERO;
         body.kick = mover.velocity - before.velocity;
         body.take(&mover);
         body.path = Path { position, velocity: path_velocity, ..Path::default() };
+    }
+
+    /// The velocity at the end of a step, as the position form of Verlet tells it from the way of
+    /// the step: that of its middle, and half of what the forces do. What carries the ball has its
+    /// say.
+    fn told_by_ways(
+        &self,
+        index: usize,
+        path_velocity: DVec3,
+        mover: &Mover,
+        change: DVec3,
+        carriers: &[Support],
+    ) -> DVec3 {
+        let (h, body) = (self.h, &self.bodies[index]);
+        let end = body.position + path_velocity * h;
+        let (force, _) = self.acceleration(body, h, end, path_velocity, mover.angular_velocity);
+        let mut velocity = path_velocity + 0.5 * (force * h + change);
+        for support in carriers {
+            velocity += support.normal * (mover.velocity - velocity).dot(support.normal);
+        }
+        velocity
     }
 
     /// The surfaces that carry a ball in this step: it touches them, or will within the step, and
@@ -189,6 +234,17 @@ impl FixedStep {
                 let (a0, b0) = force(0.0, x0, v, w);
                 let displacement = v * h + a0 * (0.5 * h * h);
                 let (a1, b1) = force(h, x0 + displacement, v + a0 * h, w + b0 * h);
+                Free {
+                    displacement,
+                    velocity: v + (a0 + a1) * (0.5 * h),
+                    angular_velocity: w + (b0 + b1) * (0.5 * h),
+                }
+            }
+            Integrator::PositionVerlet => {
+                let (a0, b0) = force(0.0, x0, v, w);
+                let way = body.way.unwrap_or(v * h - a0 * (0.5 * h * h) + body.pushed);
+                let displacement = way + a0 * (h * h);
+                let (a1, b1) = force(h, x0 + displacement, displacement / h, w + b0 * h);
                 Free {
                     displacement,
                     velocity: v + (a0 + a1) * (0.5 * h),

@@ -11,7 +11,7 @@ use super::FixedStep;
 use super::body::{Path, Support};
 use super::narrow;
 use super::spatial_hash::Bounds;
-use crate::physics::{roots, tolerance};
+use crate::physics::{PhysicsError, roots, tolerance};
 use crate::units::Seconds;
 use core::cmp::Ordering;
 use glam::DVec3;
@@ -55,29 +55,31 @@ impl Contact {
 /// Contacts that close more slowly are left to the next step.
 const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
 
+/// Contacts of one step, and more of them for each ball, beyond which something is stuck: a light
+/// ball between a wall and a ball of ten thousand times its mass, say, meets them without end once
+/// it has lost its restitution.
+const EVENTS_MAX: u64 = 10_000;
+
+/// See [`EVENTS_MAX`].
+const EVENTS_OF_A_BALL_MAX: u64 = 100;
+
 /// Contacts of a ball that differ by less, which is rounding, are at the same moment [s].
 const SAME_MOMENT_S: Seconds = 1e-12;
 
 impl FixedStep {
     /// All contacts of the step that begins at `start`.
-    pub(super) fn sweep(&mut self, start: Seconds) {
-        self.scratch.queue.clear();
-        self.scratch.balls.clear();
-        for index in 0..self.bodies.len() {
-            if self.bodies[index].solid() {
-                self.update_bounds(index);
-            }
-        }
-        self.predict_tip(None);
-        for index in 0..self.bodies.len() {
-            if self.bodies[index].solid() && self.bodies[index].active() {
-                self.predict_faces(index);
-                self.predict_balls(index, &[], true);
-            }
-        }
-
+    ///
+    /// # Errors
+    /// [`PhysicsError::StuckInStep`] if they come to no end.
+    pub(super) fn sweep(&mut self, start: Seconds) -> Result<(), PhysicsError> {
+        self.predict_all();
+        let most = self.work.events + EVENTS_MAX + EVENTS_OF_A_BALL_MAX * self.bodies.len() as u64;
         while let Some(contact) = self.next_contact() {
             self.work.events += 1;
+            if self.work.events > most {
+                let ball = self.bodies[contact.ball].ball.id;
+                return Err(PhysicsError::StuckInStep { time_s: start, ball });
+            }
             let changed = self.resolve(start, &contact);
             for index in &changed {
                 if self.bodies[*index].solid() {
@@ -93,6 +95,25 @@ impl FixedStep {
             }
             if contact.partner == Partner::Tip {
                 self.predict_tip(None);
+            }
+        }
+        Ok(())
+    }
+
+    /// All contacts of the paths as they are now.
+    pub(super) fn predict_all(&mut self) {
+        self.scratch.queue.clear();
+        self.scratch.balls.clear();
+        for index in 0..self.bodies.len() {
+            if self.bodies[index].solid() {
+                self.update_bounds(index);
+            }
+        }
+        self.predict_tip(None);
+        for index in 0..self.bodies.len() {
+            if self.bodies[index].solid() && self.bodies[index].active() {
+                self.predict_faces(index);
+                self.predict_balls(index, &[], true);
             }
         }
     }

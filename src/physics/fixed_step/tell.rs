@@ -42,7 +42,7 @@ impl FixedStep {
             (one, two) = (two, one);
         }
         let behind = |index: usize| {
-            let x = self.bodies[index].path.at(time_s - self.grid(self.step)).x;
+            let x = self.bodies[index].path.at(time_s - self.begun).x;
             self.ground.head_string_x().is_some_and(|head| x <= head)
         };
         let kind = FactKind::BallsCollided {

@@ -8,13 +8,14 @@ use crate::physics::{Contact, Parameters, PhysicsError, Simulation};
 use crate::report::answers;
 use crate::report::method::Method;
 use crate::report::starts::{self, R, ball, cloth, ideal, nothing, on_bed};
+use crate::report::trial::Patience;
 use crate::table::{Plane, Table};
 use glam::DVec3;
 
 type Measurement = Result<Measured, PhysicsError>;
 
 /// All cases.
-pub const CASES: [Case; 17] = [
+pub const CASES: [Case; 19] = [
     Case {
         id: "mass_ratio",
         title: "a ball meets another of a millionth of its mass",
@@ -25,7 +26,19 @@ pub const CASES: [Case; 17] = [
         id: "galperin",
         title: "a light ball between a wall and one of a hundred times its mass: 31 contacts",
         measures: "energy, over the first",
-        run: galperin,
+        run: |method, patience| galperin(method, 1e2, patience),
+    },
+    Case {
+        id: "galperin_1e4",
+        title: "the same with ten thousand times its mass: 314 contacts",
+        measures: "energy, over the first",
+        run: |method, patience| galperin(method, 1e4, patience),
+    },
+    Case {
+        id: "galperin_1e6",
+        title: "the same with a million times its mass: 3141 contacts",
+        measures: "energy, over the first",
+        run: |method, patience| galperin(method, 1e6, patience),
     },
     Case {
         id: "tiny_fast",
@@ -152,41 +165,41 @@ fn overlap(world: &Simulation, at: f64) -> f64 {
     deepest
 }
 
-fn mass_ratio(method: Method) -> Measurement {
+fn mass_ratio(method: Method, patience: Patience<'_>) -> Measurement {
     let (heavy, heavy_state) = ball(0, DVec3::ZERO, DVec3::X * 3.0, DVec3::ZERO);
     let (light, light_state) = ball(1, DVec3::X * 0.5, DVec3::ZERO, DVec3::ZERO);
     let heavy = Ball { mass_kg: 1e6 * light.mass_kg, ..heavy };
     let balls = vec![(heavy, heavy_state), (light, light_state)];
     let truth = 6.0 * 1e6 / (1e6 + 1.0);
-    measure(world(&nothing(), balls, method, ideal)?, 1.0, 40, |world, at| {
+    measure(patience, world(&nothing(), balls, method, ideal)?, 1.0, 40, |world, at| {
         let v = velocity(world, 1, at).x;
         // They meet within the first 0.15 s.
         if at < 0.2 { 0.0 } else { v / truth - 1.0 }
     })
 }
 
-fn galperin(method: Method) -> Measurement {
+fn galperin(method: Method, mass_ratio: f64, patience: Patience<'_>) -> Measurement {
     let (light, light_state) = ball(1, DVec3::X * 0.5, DVec3::ZERO, DVec3::ZERO);
     let (heavy, heavy_state) = ball(0, DVec3::X * 1.5, DVec3::NEG_X, DVec3::ZERO);
     let balls = vec![
-        (Ball { mass_kg: 100.0, ..heavy }, heavy_state),
+        (Ball { mass_kg: mass_ratio, ..heavy }, heavy_state),
         (Ball { mass_kg: 1.0, ..light }, light_state),
     ];
     let mut table = nothing();
     table.planes.push(plane(DVec3::ZERO, DVec3::X));
-    energy(world(&table, balls, method, ideal)?, 4.0)
+    energy(world(&table, balls, method, ideal)?, 4.0, patience)
 }
 
 /// Relative change of kinetic and potential energy.
-fn energy(world: Simulation, until_s: f64) -> Measurement {
+fn energy(world: Simulation, until_s: f64, patience: Patience<'_>) -> Measurement {
     let first = world.ledger().start_j;
-    measure(world, until_s, 100, |world, _| {
+    measure(patience, world, until_s, 100, |world, _| {
         let ledger = world.ledger();
         (ledger.kinetic_j + ledger.potential_j) / first - 1.0
     })
 }
 
-fn tiny_fast(method: Method) -> Measurement {
+fn tiny_fast(method: Method, patience: Patience<'_>) -> Measurement {
     const SMALL_M: f64 = 0.0005;
     let half = DVec3::new(0.5, 0.3, 0.2);
     let mut table = nothing();
@@ -203,18 +216,18 @@ fn tiny_fast(method: Method) -> Measurement {
             (Ball { radius_m: SMALL_M, ..made }, state)
         })
         .collect();
-    measure(world(&table, balls, method, ideal)?, 1.0, 100, |world, at| {
+    measure(patience, world(&table, balls, method, ideal)?, 1.0, 100, |world, at| {
         let out = |place: DVec3| (place.abs() - half + SMALL_M).max_element();
         let worst = |worst: f64, out: f64| if out > worst || out.is_nan() { out } else { worst };
         world.snapshot(at).balls.iter().map(|ball| out(ball.position)).fold(0.0, worst)
     })
 }
 
-fn fast_ball(method: Method) -> Measurement {
+fn fast_ball(method: Method, patience: Patience<'_>) -> Measurement {
     let mut table = nothing();
     table.planes.push(plane(DVec3::X * 3.333, DVec3::NEG_X));
     let balls = vec![ball(0, DVec3::ZERO, DVec3::X * 100.0, DVec3::ZERO)];
-    measure(world(&table, balls, method, ideal)?, 0.1, 25, |world, at| {
+    measure(patience, world(&table, balls, method, ideal)?, 0.1, 25, |world, at| {
         let wall = 3.333 - R;
         let way = 100.0 * at;
         let truth = if way < wall { way } else { 2.0 * wall - way };
@@ -222,44 +235,50 @@ fn fast_ball(method: Method) -> Measurement {
     })
 }
 
-fn slides(method: Method, at_m: f64, spin: DVec3, change: impl Fn(&mut Parameters)) -> Measurement {
+fn slides(
+    method: Method,
+    at_m: f64,
+    spin: DVec3,
+    patience: Patience<'_>,
+    change: impl Fn(&mut Parameters),
+) -> Measurement {
     let v = DVec3::X * 1.5;
     let mut law = Parameters::of(&method.settings());
     change(&mut law);
     let balls = vec![on_bed(0, at_m, 0.0, v, spin)];
-    measure(world(&cloth(), balls, method, change)?, 3.0, 60, |world, at| {
+    measure(patience, world(&cloth(), balls, method, change)?, 3.0, 60, |world, at| {
         let moved = answers::on_cloth(v, spin, &law, at);
         (place(world, 0, at) - DVec3::new(at_m, 0.0, R) - moved).length()
     })
 }
 
-fn fast_spin(method: Method) -> Measurement {
-    slides(method, 0.0, DVec3::new(300.0, 600.0, 100.0), |_| {})
+fn fast_spin(method: Method, patience: Patience<'_>) -> Measurement {
+    slides(method, 0.0, DVec3::new(300.0, 600.0, 100.0), patience, |_| {})
 }
 
-fn far_away(method: Method) -> Measurement {
-    slides(method, 1e6, DVec3::ZERO, |_| {})
+fn far_away(method: Method, patience: Patience<'_>) -> Measurement {
+    slides(method, 1e6, DVec3::ZERO, patience, |_| {})
 }
 
-fn no_friction(method: Method) -> Measurement {
-    slides(method, 0.0, DVec3::Y * 50.0, |law| {
+fn no_friction(method: Method, patience: Patience<'_>) -> Measurement {
+    slides(method, 0.0, DVec3::Y * 50.0, patience, |law| {
         law.cloth.friction = 0.0;
         law.rolling_resistance = 0.0;
     })
 }
 
-fn huge_friction(method: Method) -> Measurement {
-    slides(method, 0.0, DVec3::Y * 20.0, |law| law.cloth.friction = 1e6)
+fn huge_friction(method: Method, patience: Patience<'_>) -> Measurement {
+    slides(method, 0.0, DVec3::Y * 20.0, patience, |law| law.cloth.friction = 1e6)
 }
 
-fn rest(method: Method) -> Measurement {
+fn rest(method: Method, patience: Patience<'_>) -> Measurement {
     let balls = vec![on_bed(0, 0.3, 0.2, DVec3::ZERO, DVec3::ZERO)];
-    measure(world(&cloth(), balls, method, |_| {})?, 3600.0, 7200, |world, at| {
+    measure(patience, world(&cloth(), balls, method, |_| {})?, 3600.0, 7200, |world, at| {
         place(world, 0, at).z - R
     })
 }
 
-fn stack(method: Method) -> Measurement {
+fn stack(method: Method, patience: Patience<'_>) -> Measurement {
     // Three balls in a triangle and one in the hollow between them, a regular tetrahedron.
     let side = 2.0 * R;
     let base = [(0.0, 0.0), (side, 0.0), (0.5 * side, 0.75_f64.sqrt() * side)];
@@ -276,10 +295,10 @@ fn stack(method: Method) -> Measurement {
         law.ball.friction = 0.6;
         law.cloth.friction = 0.6;
     };
-    measure(world(&cloth(), balls, method, rough)?, 3.0, 300, overlap)
+    measure(patience, world(&cloth(), balls, method, rough)?, 3.0, 300, overlap)
 }
 
-fn wedge(method: Method) -> Measurement {
+fn wedge(method: Method, patience: Patience<'_>) -> Measurement {
     let mut table = nothing();
     for x in [-1.0, 1.0] {
         table.planes.push(plane(DVec3::ZERO, DVec3::new(x, 0.0, 1.0).normalize_or(DVec3::Z)));
@@ -287,13 +306,13 @@ fn wedge(method: Method) -> Measurement {
     let depth = R * 2.0_f64.sqrt();
     let start = DVec3::new(0.01, 0.0, depth + 0.05);
     let balls = vec![ball(0, start, DVec3::ZERO, DVec3::ZERO)];
-    measure(world(&table, balls, method, |_| {})?, 6.0, 300, |world, at| {
+    measure(patience, world(&table, balls, method, |_| {})?, 6.0, 300, |world, at| {
         let off = (place(world, 0, at) - DVec3::Z * depth).length();
         if at < 2.0 { 0.0 } else { off }
     })
 }
 
-fn grazing(method: Method) -> Measurement {
+fn grazing(method: Method, patience: Patience<'_>) -> Measurement {
     let aside = 2.0 * R * (1.0 - 1e-8);
     let balls = vec![
         ball(0, DVec3::X * -0.5, DVec3::X, DVec3::ZERO),
@@ -301,18 +320,18 @@ fn grazing(method: Method) -> Measurement {
     ];
     let share = 1.0 - 1e-8;
     let truth = (1.0_f64 - share * share).sqrt();
-    measure(world(&nothing(), balls, method, ideal)?, 2.0, 80, |world, at| {
+    measure(patience, world(&nothing(), balls, method, ideal)?, 2.0, 80, |world, at| {
         if at < 0.6 { 0.0 } else { velocity(world, 1, at).length() / truth - 1.0 }
     })
 }
 
-fn simultaneous(method: Method) -> Measurement {
+fn simultaneous(method: Method, patience: Patience<'_>) -> Measurement {
     let balls = vec![
         on_bed(0, -0.4, 0.0, DVec3::X * 3.0, DVec3::ZERO),
         on_bed(1, 0.0, R, DVec3::ZERO, DVec3::ZERO),
         on_bed(2, 0.0, -R, DVec3::ZERO, DVec3::ZERO),
     ];
-    measure(world(&cloth(), balls, method, |_| {})?, 1.0, 40, |world, at| {
+    measure(patience, world(&cloth(), balls, method, |_| {})?, 1.0, 40, |world, at| {
         let (left, right) = (place(world, 1, at), place(world, 2, at));
         (left * DVec3::new(1.0, -1.0, 1.0) - right).length() + place(world, 0, at).y.abs()
     })
@@ -323,31 +342,31 @@ fn dropped(method: Method, restitution: f64) -> Result<Simulation, PhysicsError>
     world(&cloth(), balls, method, |law| law.cloth = Contact { restitution, friction: 0.0 })
 }
 
-fn restitution_0(method: Method) -> Measurement {
-    measure(dropped(method, 0.0)?, 2.0, 100, |world, at| {
+fn restitution_0(method: Method, patience: Patience<'_>) -> Measurement {
+    measure(patience, dropped(method, 0.0)?, 2.0, 100, |world, at| {
         place(world, 0, at).z - R - (0.3 - 0.5 * 9.81 * at * at).max(0.0)
     })
 }
 
-fn restitution_1(method: Method) -> Measurement {
+fn restitution_1(method: Method, patience: Patience<'_>) -> Measurement {
     let world = dropped(method, 1.0)?;
     // Height above the lying ball is what can be told: its weight has no zero.
     let (mass, full) = (0.17, 0.17 * 9.81 * 0.3);
-    measure(world, 20.0, 400, |world, at| {
+    measure(patience, world, 20.0, 400, |world, at| {
         let (v, z) = (velocity(world, 0, at).length(), place(world, 0, at).z - R);
         (0.5 * mass * v * v + mass * 9.81 * z) / full - 1.0
     })
 }
 
-fn racked(method: Method, contact: Contact) -> Measurement {
+fn racked(method: Method, contact: Contact, patience: Patience<'_>) -> Measurement {
     let world = world(&starts::noses(), starts::racked(0), method, |law| law.ball = contact)?;
-    measure(world, 2.0, 200, overlap)
+    measure(patience, world, 2.0, 200, overlap)
 }
 
-fn dead_break(method: Method) -> Measurement {
-    racked(method, Contact { restitution: 0.0, friction: 0.05 })
+fn dead_break(method: Method, patience: Patience<'_>) -> Measurement {
+    racked(method, Contact { restitution: 0.0, friction: 0.05 }, patience)
 }
 
-fn hard_break(method: Method) -> Measurement {
-    racked(method, Contact { restitution: 1.0, friction: 0.0 })
+fn hard_break(method: Method, patience: Patience<'_>) -> Measurement {
+    racked(method, Contact { restitution: 1.0, friction: 0.0 }, patience)
 }

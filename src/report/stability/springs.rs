@@ -44,18 +44,18 @@ fn held(stiffness_n_m: f64, ratio: f64, method: Method) -> Result<Simulation, Ph
 pub fn spring_cell(stiffness_n_m: f64, ratio: f64, method: Method) -> Cell {
     let omega = (stiffness_n_m / POOL_MASS_KG).sqrt();
     let measured = held(stiffness_n_m, ratio, method).and_then(|world| {
-        measure(world, 1.0, 250, |world, at| {
+        measure(&mut || true, world, 1.0, 250, |world, at| {
             let place = world.sample(BallId(0), at).map_or(DVec3::NAN, |ball| ball.position);
             let truth = answers::on_spring(omega, ratio, DVec3::X * OFF_M, DVec3::ZERO, at);
             (place - truth).length() / OFF_M
         })
     });
     let mut cell = Cell::of(measured);
-    if let Method::FixedStep { integrator, step_ms } = method {
+    if let (Some(integrator), Some(step_ms)) = (method.integrator(), method.step_ms()) {
         let product = omega * step_ms / 1000.0;
         let limit = theory(integrator, ratio);
         if cell.class == Class::Diverges {
-            cell.note = format!("step times frequency {product:.3}, limit {limit:.3}");
+            cell.note = format!("ωh {product:.3}, limit {limit:.3}");
         }
     }
     cell
@@ -134,6 +134,12 @@ fn radius(integrator: Integrator, ratio: f64, product: f64) -> f64 {
             let next = x + y + 0.5 * a;
             (next, y + 0.5 * (a + force(next, y + a)))
         }
+        // Here the second number is the way of the last step, which is all that it knows of its
+        // velocity.
+        Integrator::PositionVerlet => {
+            let way = y + force(x, y + 0.5 * force(x, y));
+            (x + way, way)
+        }
         Integrator::Rk4 => {
             let slope = |x: f64, y: f64| (y, force(x, y));
             let k1 = slope(x, y);
@@ -145,6 +151,11 @@ fn radius(integrator: Integrator, ratio: f64, product: f64) -> f64 {
         }
     };
     let ((a, c), (b, d)) = (step(1.0, 0.0), step(0.0, 1.0));
+    largest_eigenvalue([[a, b], [c, d]])
+}
+
+/// Largest absolute value of the eigenvalues of a matrix.
+pub(super) fn largest_eigenvalue([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
     let (trace, determinant) = (a + d, a * d - b * c);
     let inner = 0.25 * trace * trace - determinant;
     if inner < 0.0 { determinant.sqrt() } else { 0.5 * trace.abs() + inner.sqrt() }

@@ -3,7 +3,7 @@
 use super::scenes::*;
 use glam::DVec3;
 use hapticbillard::ball::{Ball, Spring};
-use hapticbillard::physics::{Integrator, PhysicsSettings, Simulation, Strike};
+use hapticbillard::physics::{PhysicsSettings, Simulation, Strike};
 use hapticbillard::table::Table;
 
 fn adds_up(simulation: &Simulation, what: &str) {
@@ -49,7 +49,7 @@ fn breaks_add_up_in_both_profiles() {
 #[test]
 fn springs_add_up_with_every_integrator_and_profile() {
     for profile in profiles() {
-        for integrator in [Integrator::EulerCromer, Integrator::Verlet, Integrator::Rk4] {
+        for integrator in INTEGRATORS {
             let spring = Spring {
                 anchor_m: DVec3::new(0.0, 0.0, 0.1),
                 stiffness_n_m: 40.0,

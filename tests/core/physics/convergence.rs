@@ -144,9 +144,12 @@ fn on_a_spring_every_integrator_has_its_own_order() {
     let (sin, cos) = libm::sincos(rate);
     let decay = libm::exp(-sigma);
     let exact = DVec3::new(0.1, -0.2, 1.0) + decay * (x * cos + (v + sigma * x) / rate * sin);
-    for (integrator, order) in
-        [(Integrator::EulerCromer, 1.0), (Integrator::Verlet, 2.0), (Integrator::Rk4, 4.0)]
-    {
+    for (integrator, order) in [
+        (Integrator::EulerCromer, 1.0),
+        (Integrator::Verlet, 2.0),
+        (Integrator::PositionVerlet, 2.0),
+        (Integrator::Rk4, 4.0),
+    ] {
         let errors = [4.0, 2.0].map(|h| on_spring(integrator, h).distance(exact));
         let observed = libm::log2(errors[0] / errors[1]);
         assert!((observed - order).abs() < 0.2, "{integrator:?}: {observed} {errors:?}");
@@ -164,5 +167,6 @@ fn in_free_flight_euler_cromer_falls_too_far_and_the_others_are_exact() {
     let late = 0.5 * 9.81 * 0.004 * 0.4;
     assert!((fall(Integrator::EulerCromer) - exact + DVec3::Z * late).length() < 1e-12);
     assert!((fall(Integrator::Verlet) - exact).length() < 1e-12);
+    assert!((fall(Integrator::PositionVerlet) - exact).length() < 1e-12);
     assert!((fall(Integrator::Rk4) - exact).length() < 1e-12);
 }

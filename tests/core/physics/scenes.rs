@@ -136,8 +136,8 @@ pub fn exact() -> PhysicsSettings {
 }
 
 /// All ways to integrate a step.
-pub const INTEGRATORS: [Integrator; 3] =
-    [Integrator::EulerCromer, Integrator::Verlet, Integrator::Rk4];
+pub const INTEGRATORS: [Integrator; 4] =
+    [Integrator::EulerCromer, Integrator::Verlet, Integrator::PositionVerlet, Integrator::Rk4];
 
 /// Settings of the 2009 profile.
 pub fn of_2009() -> PhysicsSettings {

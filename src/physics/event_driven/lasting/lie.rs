@@ -37,7 +37,7 @@ impl EventDriven {
                 spring::acceleration(&body.ball, own, centre, velocity, x, w).0
             });
             let weight = DVec3::NEG_Z * self.parameters.gravity_m_s2;
-            let kick = (weight + pull).dot(normal) * tolerance::LASTING_STEP_S;
+            let kick = (weight + pull).dot(normal) * self.parameters.exact.lasting_step_s;
             let out = velocity.dot(normal);
             if out + kick < 0.0 {
                 let along = velocity - normal * out;
