@@ -1,0 +1,140 @@
+//! What the servo is told of the world: one plain value, handed over whole.
+//!
+//! It is `Copy` and has a fixed size, so that a latest-value slot can carry it without a lock or
+//! an allocation, and a tick never sees half of a change (paper, section 3.3.1).
+
+use super::effect::EffectSet;
+use crate::ids::BallId;
+use crate::physics::Contact;
+use crate::units::Seconds;
+use glam::DVec3;
+
+/// Most balls that can be felt at a time: those of snooker.
+pub const BALLS_MAX: usize = 22;
+
+/// Everything that the servo renders from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HapticScene {
+    /// Counts up with every scene that is handed over: the heartbeat of the world. A servo that
+    /// sees the same number for too long fades its force out.
+    pub serial: u64,
+    /// Nothing is felt while this is false: the dead man's switch of whoever hands scenes over.
+    pub live: bool,
+    /// Time of the balls below [s].
+    pub time_s: Seconds,
+    /// The last [`StylusSample`](super::StylusSample) that physics had taken in at that time; balls
+    /// that are older than a stroke do not undo it.
+    pub sample_seen: u64,
+    /// Forces that belong to no body: menus, camera, aids. In the device frame.
+    pub effects: EffectSet,
+    /// How the device reaches into the world; none: only effects are felt.
+    pub reach: Option<Reach>,
+    /// The balls in play; only the first `ball_count` count.
+    pub balls: [HapticBall; BALLS_MAX],
+    /// How many there are.
+    pub ball_count: usize,
+}
+
+impl Default for HapticScene {
+    fn default() -> Self {
+        HapticScene {
+            serial: 0,
+            live: true,
+            time_s: 0.0,
+            sample_seen: 0,
+            effects: EffectSet::default(),
+            reach: None,
+            balls: [HapticBall::NONE; BALLS_MAX],
+            ball_count: 0,
+        }
+    }
+}
+
+impl HapticScene {
+    /// The balls in play.
+    pub fn balls(&self) -> &[HapticBall] {
+        &self.balls[..self.ball_count.min(BALLS_MAX)]
+    }
+
+    /// Adds a ball. False if there is no room: then it is not felt.
+    pub fn add(&mut self, ball: HapticBall) -> bool {
+        let has_room = self.ball_count < BALLS_MAX;
+        if has_room {
+            self.balls[self.ball_count] = ball;
+            self.ball_count += 1;
+        }
+        has_room
+    }
+}
+
+/// A ball as the servo is told of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HapticBall {
+    /// Its name.
+    pub id: BallId,
+    /// Centre [m].
+    pub position: DVec3,
+    /// Velocity [m/s].
+    pub velocity: DVec3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: DVec3,
+    /// Radius [m].
+    pub radius_m: f64,
+    /// 1/m [1/kg]; zero for a ball that does not move.
+    pub inverse_mass: f64,
+    /// 1/I [1/(kg m²)].
+    pub inverse_inertia: f64,
+}
+
+impl HapticBall {
+    /// Fills an unused place.
+    pub const NONE: HapticBall = HapticBall {
+        id: BallId::CUE,
+        position: DVec3::ZERO,
+        velocity: DVec3::ZERO,
+        angular_velocity: DVec3::ZERO,
+        radius_m: 0.0,
+        inverse_mass: 0.0,
+        inverse_inertia: 0.0,
+    };
+}
+
+/// How the workspace of the device lies in the world (paper, section 3.3.3).
+///
+/// The device's point (0, 0, −0.4 · depth/2) lies on the pivot. From there −z of the device points
+/// along the azimuth, lowered by the elevation; x to the right. The servo itself turns it while the
+/// stylus pushes an edge, and tells where it is in its report.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Counts up when the workspace is laid anew; the angles below hold from then on.
+    pub serial: u32,
+    /// What it turns about: the middle of the ball to be struck [m].
+    pub pivot: DVec3,
+    /// Horizontal direction of −z of the device, anticlockwise from +x [rad].
+    pub azimuth_rad: f64,
+    /// How far that direction is lowered [rad].
+    pub elevation_rad: f64,
+    /// Metres of the world per metre of the device.
+    pub scale: f64,
+    /// Further factor along the shaft during a stroke.
+    pub stroke_gain: f64,
+    /// Whether the edges turn it.
+    pub turns: bool,
+    /// Radius of the sphere that stands for the tip [m].
+    pub tip_radius_m: f64,
+    /// The cue that can strike; none: everything is only touched.
+    pub cue: Option<CueBody>,
+}
+
+/// The cue, as the law of the stroke sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CueBody {
+    /// Mass along the shaft [kg].
+    pub mass_kg: f64,
+    /// Effective mass of the end across the shaft [kg].
+    pub end_mass_kg: f64,
+    /// Restitution and friction of the tip.
+    pub contact: Contact,
+    /// Rate at which the hand draws the cue back to its path after a contact [rad/s].
+    pub coupling_rad_s: f64,
+}
