@@ -15,9 +15,11 @@ mod device;
 mod effect;
 mod effect_force;
 mod report;
+mod safety;
 mod scene;
 mod servo;
 mod settings;
+pub mod simulated;
 
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};

@@ -20,6 +20,9 @@ pub const MESHES: &[(&str, &str)] =
 /// The catalogue of cases with known answers.
 pub const CASES: &str = include_str!("../config/validation/cases.json");
 
+/// The same for the haptic renderer.
+pub const HAPTIC_CASES: &str = include_str!("../config/validation/haptic_cases.json");
+
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {
     TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)

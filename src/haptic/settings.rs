@@ -137,6 +137,9 @@ pub struct SafetySettings {
     pub fade_s: Seconds,
     /// Largest damping of the passivity controller [N s/m]; 0: none.
     pub passivity_damping_ns_m: f64,
+    /// A loop that swings more than this although that damping acts is softened [m]; infinite:
+    /// never.
+    pub soften_swing_m: f64,
     /// Fastest change of the force [N/s]; infinite: none. A transient is exempt.
     pub slew_n_s: f64,
     /// Root mean square that the motors bear [N]; infinite: none.
@@ -173,6 +176,7 @@ impl SafetySettings {
         stale_s: f64::INFINITY,
         fade_s: 0.0,
         passivity_damping_ns_m: 0.0,
+        soften_swing_m: f64::INFINITY,
         slew_n_s: f64::INFINITY,
         thermal_n: f64::INFINITY,
         thermal_s: 20.0,
@@ -194,6 +198,7 @@ impl SafetySettings {
             stale_s: 0.020,
             fade_s: 0.050,
             passivity_damping_ns_m: spec.damping_max_ns_m.min(5.0),
+            soften_swing_m: 1e-4,
             slew_n_s: 2000.0,
             thermal_n: spec.force_continuous_n,
             thermal_s: 20.0,

@@ -1,0 +1,3 @@
+//! The haptic renderer: closed loops, effects, safety, strokes.
+
+mod cases;
