@@ -13,16 +13,34 @@
 
 mod device;
 mod effect;
-mod effect_force;
 mod report;
-mod safety;
 mod scene;
-mod servo;
 mod settings;
+
+mod servo;
+
+mod world;
+
+mod reach;
+
+mod tip;
+
+mod mesh;
+mod obstacles;
+mod proxy;
+
+mod strike;
+mod transient;
+
+mod effect_force;
+
+mod safety;
+
 pub mod simulated;
 
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
+pub use mesh::HapticMesh;
 pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;

@@ -79,6 +79,7 @@ fn observe(
         "energy_observer" => haptic::energy_observer(setup),
         "wall_settles" => haptic::wall_settles(setup),
         "passivity_controller" => haptic::passivity_controller(setup),
+        "strike_repeatability" => haptic::strike_repeatability(setup),
         "hold_still" => haptic::hold_still(setup),
         "divergence_sign" => haptic::divergence_sign(setup),
         other => Err(Trouble::Unsupported(format!("this build has no runner for {other}"))),

@@ -43,7 +43,6 @@ use super::effect_force::Hand;
 use super::report::{Counters, SafetyFlags, ServoReport};
 use super::scene::HapticScene;
 use super::settings::{SafetySettings, ServoSettings};
-use crate::units::Seconds;
 use glam::DVec3;
 
 /// What the world does to the hand, in the device frame.
@@ -84,11 +83,6 @@ impl Safety {
             acting: DVec3::ZERO,
             generation: None,
         }
-    }
-
-    /// How old the newest scene was at the last tick [s].
-    pub fn scene_age_s(&self) -> Seconds {
-        self.stale.age_s()
     }
 
     /// The force that may be sent, `hand.dt` after the last one. The device has been found to say

@@ -44,7 +44,10 @@ pub struct CouplingSettings {
     pub stiffness_n_m: f64,
     /// Damping of the same [N s/m].
     pub damping_ns_m: f64,
-    /// Rate of the tracking filter between device and tip [rad/s]; infinite: none.
+    /// How much of the lag of a cue that has struck is felt: 1 as much as a spring of this
+    /// stiffness gives, 0 only the blow.
+    pub recoil: f64,
+    /// Rate of the tracker between device and tip [rad/s]; infinite: none.
     pub tracking_rad_s: f64,
     /// Friction of everything that is touched.
     pub friction: f64,
@@ -55,7 +58,8 @@ impl Default for CouplingSettings {
         CouplingSettings {
             stiffness_n_m: 500.0,
             damping_ns_m: 0.0,
-            tracking_rad_s: 200.0,
+            recoil: 0.5,
+            tracking_rad_s: 300.0,
             friction: 0.2,
         }
     }

@@ -83,9 +83,14 @@ impl SimulatedDevice {
 
     /// The same with a constant force on the handle [N], and the handle moving [m/s].
     pub fn pushed(mut self, bias: DVec3, velocity: DVec3) -> Self {
-        self.bias = bias;
+        self.push(bias);
         self.plant.set_velocity(velocity);
         self
+    }
+
+    /// From now on a constant force is on the handle, besides hand and motors [N].
+    pub fn push(&mut self, bias: DVec3) {
+        self.bias = bias;
     }
 
     /// Where the handle really is [m].

@@ -8,9 +8,11 @@
 mod bench;
 mod limits;
 mod setup;
+mod strike;
 mod walls;
 
 pub(super) use limits::{divergence_sign, stability_limit};
+pub(super) use strike::strike_repeatability;
 pub(super) use walls::{
     bounce_gain, energy_observer, hold_still, passivity_controller, wall_settles,
 };

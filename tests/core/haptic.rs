@@ -1,3 +1,4 @@
 //! The haptic renderer: closed loops, effects, safety, strokes.
 
 mod cases;
+mod walls;

@@ -34,11 +34,6 @@ impl Stale {
         self.gain = self.gain.clamp(0.0, 1.0);
         self.gain
     }
-
-    /// How old the newest scene is [s].
-    pub fn age_s(&self) -> Seconds {
-        self.age_s
-    }
 }
 
 #[cfg(test)]
