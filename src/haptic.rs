@@ -46,4 +46,5 @@ pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;
 pub use settings::{
     CouplingSettings, ReachSettings, SafetySettings, ServoSettings, TransientSettings,
+    stiffness_for,
 };

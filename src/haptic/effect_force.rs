@@ -27,6 +27,8 @@ pub(super) struct Hand {
     pub velocity: DVec3,
     /// Time since the last tick [s].
     pub dt: Seconds,
+    /// No effect is stiffer than this [N/m].
+    pub stiffness_max_n_m: f64,
 }
 
 /// What a whole set remembers.
@@ -70,27 +72,28 @@ impl Effect {
     /// The force on the device [N].
     fn force(&self, memory: &mut Memory, hand: &Hand) -> DVec3 {
         let (x, v) = (hand.position, hand.velocity);
+        let held = |stiffness_n_m: f64| stiffness_n_m.min(hand.stiffness_max_n_m);
         match *self {
             Effect::Constant { force } => force,
             Effect::Point { point, stiffness_n_m, damping_ns_m } => {
-                stiffness_n_m * (point - x) - damping_ns_m * v
+                held(stiffness_n_m) * (point - x) - damping_ns_m * v
             }
             Effect::Line { point, direction, stiffness_n_m, damping_ns_m } => {
                 let across = |vector: DVec3| vector - direction * vector.dot(direction);
-                stiffness_n_m * across(point - x) - damping_ns_m * across(v)
+                held(stiffness_n_m) * across(point - x) - damping_ns_m * across(v)
             }
             Effect::Plane { normal, offset_m, stiffness_n_m, damping_ns_m } => {
                 let depth_m = offset_m - normal.dot(x);
-                pushed_out(depth_m, normal, stiffness_n_m, damping_ns_m, hand)
+                pushed_out(depth_m, normal, held(stiffness_n_m), damping_ns_m, hand)
             }
             Effect::Sphere { centre, radius_m, stiffness_n_m, damping_ns_m } => {
                 let depth_m = radius_m - centre.distance(x);
                 // In the very middle every way out is as short; up is one.
                 let normal = (x - centre).normalize_or(DVec3::Y);
-                pushed_out(depth_m, normal, stiffness_n_m, damping_ns_m, hand)
+                pushed_out(depth_m, normal, held(stiffness_n_m), damping_ns_m, hand)
             }
             Effect::Magnet { point, stiffness_n_m, force_max_n, reach_m } => {
-                magnet(point - x, stiffness_n_m, force_max_n, reach_m)
+                magnet(point - x, held(stiffness_n_m), force_max_n, reach_m)
             }
             Effect::Viscous { region, damping_ns_m } => {
                 if region.holds(x) {
@@ -105,7 +108,7 @@ impl Effect {
                     return DVec3::ZERO;
                 }
                 let stuck = *memory.stuck.get_or_insert(x);
-                let force = stiffness_n_m * (stuck - x);
+                let force = held(stiffness_n_m) * (stuck - x);
                 if force.length() <= force_max_n {
                     return force;
                 }

@@ -38,6 +38,8 @@ mod deadlines;
 
 mod connection;
 
+mod late;
+
 use super::device::{DeviceState, Force};
 use super::effect_force::Hand;
 use super::report::{Counters, SafetyFlags, ServoReport};
@@ -65,12 +67,12 @@ pub(super) struct Safety {
     too_fast: too_fast::TooFast,
     ramp: ramp::Ramp,
     deadlines: deadlines::Deadlines,
-    acting: DVec3,
+    sent: late::Sent,
     generation: Option<u32>,
 }
 
 impl Safety {
-    pub fn new(settings: &SafetySettings) -> Self {
+    pub fn new(settings: &ServoSettings) -> Self {
         Safety {
             stale: stale::Stale::new(),
             cross_fade: cross_fade::CrossFade::new(),
@@ -78,9 +80,9 @@ impl Safety {
             slew: slew::Slew::default(),
             thermal: thermal::Thermal::default(),
             too_fast: too_fast::TooFast::default(),
-            ramp: ramp::Ramp::new(settings.start_s),
+            ramp: ramp::Ramp::new(settings.safety.start_s),
             deadlines: deadlines::Deadlines::new(),
-            acting: DVec3::ZERO,
+            sent: late::Sent::new(settings.latency_s, settings.period_s),
             generation: None,
         }
     }
@@ -118,8 +120,8 @@ impl Safety {
             self.passivity.reset();
         }
         let (damping_max, swing_m) = (safety.passivity_damping_ns_m, safety.soften_swing_m);
-        let passive =
-            self.passivity.pass(force, self.acting, hand.position, dt, damping_max, swing_m);
+        let acting = self.sent.acting();
+        let passive = self.passivity.pass(force, acting, hand.position, dt, damping_max, swing_m);
         force = passive.force;
         flags.set(SafetyFlags::PASSIVITY, passive.acts);
 
@@ -152,7 +154,7 @@ impl Safety {
         flags.set(SafetyFlags::LATE, punctuality.is_late);
         flags.set(SafetyFlags::DISCONNECTED, !is_open);
 
-        self.acting = force;
+        self.sent.send(force);
         self.thermal.took(force, dt, safety.thermal_s);
         count(&mut report.counters, flags, is_first_too_fast, punctuality.is_stall);
         report.flags = flags;
@@ -166,7 +168,8 @@ impl Safety {
 
     /// The device says no numbers, or no time has passed: nothing is sent.
     pub fn refuse(&mut self, safety: &SafetySettings, report: &mut ServoReport) -> Force {
-        self.acting = self.switch_off(safety);
+        let off = self.switch_off(safety);
+        self.sent.send(off);
         report.flags = SafetyFlags::NOT_FINITE;
         report.counters.not_finite += 1;
         (report.wanted, report.force) = (Force::ZERO, Force::ZERO);

@@ -53,7 +53,7 @@ impl Servo {
             proxy: Proxy::default(),
             lead: Lead::default(),
             transient: Transient::default(),
-            safety: Safety::new(&settings.safety),
+            safety: Safety::new(&settings),
             report: ServoReport { stiffness_factor: 1.0, ..ServoReport::default() },
         }
     }
@@ -91,7 +91,12 @@ impl Servo {
         self.report.sample.tick = self.report.counters.ticks;
         self.report.sample.dt = true_dt;
         self.report.sample.device = *device;
-        let hand = Hand { position: device.position, velocity: self.velocity, dt: true_dt };
+        let hand = Hand {
+            position: device.position,
+            velocity: self.velocity,
+            dt: true_dt,
+            stiffness_max_n_m: self.settings.stiffness_max_n_m,
+        };
         self.safety.pass(felt, &hand, device, scene, &self.settings, &mut self.report)
     }
 
@@ -141,11 +146,11 @@ impl Servo {
             self.meet(&met, &placed);
         }
         let pulled = placed.in_device(self.proxy.centre() - placed.target);
-        let spring = settings.coupling.stiffness_n_m * pulled;
+        let stiffness = settings.coupling.stiffness_n_m.min(settings.stiffness_max_n_m);
+        let spring = stiffness * pulled;
         let damping = self.damping(pulled);
         let back = placed.direction * self.lead.offset_m;
-        let recoil =
-            settings.coupling.recoil * settings.coupling.stiffness_n_m * placed.in_device(back);
+        let recoil = settings.coupling.recoil * stiffness * placed.in_device(back);
 
         self.tell(&placed, pulled.length());
         Felt {

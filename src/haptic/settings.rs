@@ -8,6 +8,10 @@ use crate::units::Seconds;
 pub struct ServoSettings {
     /// Planned time between ticks [s].
     pub period_s: Seconds,
+    /// How late a force acts, besides the period [s].
+    pub latency_s: Seconds,
+    /// No effect and no coupling is stiffer than this [N/m]; infinite: as stiff as it says.
+    pub stiffness_max_n_m: f64,
     /// Cut-off of the filter on the device's velocity, which all damping uses [Hz]; infinite: none.
     pub velocity_filter_hz: f64,
     /// Device and tip.
@@ -25,16 +29,43 @@ impl ServoSettings {
     pub fn of(spec: &DeviceSpec) -> Self {
         ServoSettings {
             period_s: spec.period_s(),
+            latency_s: spec.latency_s,
             velocity_filter_hz: 60.0,
-            coupling: CouplingSettings {
-                stiffness_n_m: spec.stiffness_max_n_m.min(500.0),
-                ..CouplingSettings::default()
-            },
+            stiffness_max_n_m: stiffness_for(spec, 0.0),
+            coupling: CouplingSettings::default(),
             transient: TransientSettings::default(),
             reach: ReachSettings::default(),
             safety: SafetySettings::of(spec),
         }
     }
+}
+
+/// Damping that the lightest grip adds [N s/m].
+const LIGHT_GRIP_NS_M: f64 = 1.0;
+/// How much of a stability limit is used.
+const CAUTION: f64 = 0.6;
+/// What dry friction above [`STICKY_N`] makes of a limit without any: three times and more in the
+/// closed loop.
+const STICKY: f64 = 3.0;
+/// See [`STICKY`] [N].
+const STICKY_N: f64 = 0.2;
+
+/// The stiffest wall that a device renders in a loop that is late by `late_s` besides its period
+/// and the device's own latency [N/m]: K < (b + B)/(T/2 + t_d) (Gil et al. 2004), with a light grip
+/// for b and with caution, and at most what the device is made for.
+pub fn stiffness_for(spec: &DeviceSpec, late_s: Seconds) -> f64 {
+    let delay_s = 0.5 * spec.period_s() + spec.latency_s + late_s;
+    let friction = if spec.friction_n >= STICKY_N { STICKY } else { 1.0 };
+    let limit = CAUTION * friction * (spec.damping_ns_m + LIGHT_GRIP_NS_M) / delay_s;
+    limit.min(spec.stiffness_max_n_m)
+}
+
+/// The largest damping that the observer may add [N s/m]: a part of what is stable on the bare
+/// handle, v\[k+1\] = v\[k\] − (B T/m) v\[k−n\], which is B < 2 cos(n π/(2 n + 1)) m/T.
+fn damping_for(spec: &DeviceSpec) -> f64 {
+    let n = libm::round(spec.latency_s * spec.rate_hz);
+    let limit = 2.0 * libm::cos(n * std::f64::consts::PI / (2.0 * n + 1.0));
+    (0.25 * limit * spec.mass_kg * spec.rate_hz).min(spec.damping_max_ns_m).min(5.0)
 }
 
 /// The virtual coupling between device and tip.
@@ -201,7 +232,7 @@ impl SafetySettings {
         SafetySettings {
             stale_s: 0.020,
             fade_s: 0.050,
-            passivity_damping_ns_m: spec.damping_max_ns_m.min(5.0),
+            passivity_damping_ns_m: damping_for(spec),
             soften_swing_m: 1e-4,
             slew_n_s: 2000.0,
             thermal_n: spec.force_continuous_n,

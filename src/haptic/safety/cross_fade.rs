@@ -109,7 +109,12 @@ mod tests {
     }
 
     fn hand() -> Hand {
-        Hand { position: DVec3::ZERO, velocity: DVec3::ZERO, dt: 0.001 }
+        Hand {
+            position: DVec3::ZERO,
+            velocity: DVec3::ZERO,
+            dt: 0.001,
+            stiffness_max_n_m: f64::INFINITY,
+        }
     }
 
     #[test]

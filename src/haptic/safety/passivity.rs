@@ -3,25 +3,30 @@
 //! The observer knows the work exactly, because a force is held between ticks:
 //! `E[k] = E[k−1] − F[k−1] · (x[k] − x[k−1])`; E ≥ 0 while the renderer gives no more than it took.
 //! The controller damps with `α = −E/(dt v²)`, at most what the device renders without chatter
-//! (Hannaford and Ryu 2002).
+//! (Hannaford and Ryu 2002). It keeps an account of its own: every contact begins with nothing in
+//! store, and must keep a share of what went in, or a device that nobody holds bounces for ever.
 //!
 //! Where that damping is not enough, as with late forces on a stiff wall, the loop swings on. Then
-//! the stiffness of everything is lowered until it does not. A wall that has been left for a while
-//! starts with full stiffness again.
+//! the stiffness of everything is lowered until it does not, and what is felt is damped a little;
+//! it comes back while nothing is felt.
 
 use crate::units::Seconds;
 use glam::DVec3;
 
-/// The observer forgets what it knows after this time without a force [s].
-const FORGET_S: Seconds = 0.2;
-/// The stiffness is looked at this often while the controller works [s].
+/// Share of the most that went into a contact that must not have come out at its end.
+const KEPT: f64 = 0.2;
+/// The loop is looked at this often [s].
 const LOOK_S: Seconds = 0.05;
-/// Share of that time in which the controller may work before the stiffness falls.
+/// Share of that time in which the damping may be at its greatest before the stiffness falls.
 const BUSY: f64 = 0.1;
-/// What the stiffness is multiplied by at a time.
+/// What the stiffness is multiplied by then.
 const CUT: f64 = 0.8;
 /// The lowest stiffness.
 const FACTOR_MIN: f64 = 0.02;
+/// Damping of what is felt, once all stiffness is gone [N s/m].
+const SOFT_NS_M: f64 = 2.0;
+/// How fast the stiffness comes back while nothing is felt [1/s].
+const GROWTH_1_S: f64 = 1.0;
 
 /// What the stage says.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,9 +42,12 @@ pub(super) struct Passive {
 pub(super) struct Passivity {
     last: Option<DVec3>,
     energy_j: f64,
-    idle_s: Seconds,
-    /// Of the present look: its length so far, the part in which the controller worked, the box
-    /// that the device stayed in.
+    account_j: f64,
+    /// Of the present contact: the most that the account held.
+    most_j: f64,
+    is_felt: bool,
+    /// Of the present look: its length so far, the part in which the damping was at its greatest,
+    /// the box that the device stayed in.
     look_s: Seconds,
     busy_s: Seconds,
     low: DVec3,
@@ -52,7 +60,9 @@ impl Passivity {
         Passivity {
             last: None,
             energy_j: 0.0,
-            idle_s: 0.0,
+            account_j: 0.0,
+            most_j: 0.0,
+            is_felt: false,
             look_s: 0.0,
             busy_s: 0.0,
             low: DVec3::INFINITY,
@@ -73,7 +83,7 @@ impl Passivity {
 
     /// Forgets all energy: another thing is rendered.
     pub fn reset(&mut self) {
-        self.energy_j = 0.0;
+        (self.energy_j, self.account_j, self.most_j) = (0.0, 0.0, 0.0);
     }
 
     /// `acting` was on the device since the last tick and has moved it to `position`; `wanted` is
@@ -90,35 +100,41 @@ impl Passivity {
     ) -> Passive {
         let moved = position - self.last.unwrap_or(position);
         self.last = Some(position);
-        self.energy_j -= acting.dot(moved);
-        self.forget(acting, wanted, dt);
+        let work = acting.dot(moved);
+        self.energy_j -= work;
+        self.account_j -= work;
+        self.most_j = self.most_j.max(self.account_j);
+        self.notice(wanted != DVec3::ZERO, dt);
 
+        let soft = if self.is_felt { SOFT_NS_M * (1.0 - self.factor) } else { 0.0 };
+        let wanted = wanted - soft.min(0.5 * damping_max) * moved / dt;
         let square = moved.length_squared();
-        if !(self.energy_j < 0.0 && square > 0.0 && damping_max > 0.0) {
+        if !(self.account_j < 0.0 && square > 0.0 && damping_max > 0.0) {
             self.look(position, dt, false, swing_m);
             return Passive { force: wanted, acts: false };
         }
         // v = moved/dt, so α = −E dt/|moved|².
-        let damping = (-self.energy_j * dt / square).min(damping_max);
-        self.look(position, dt, true, swing_m);
-        Passive { force: wanted - damping * moved / dt, acts: true }
+        let needed = -self.account_j * dt / square;
+        self.look(position, dt, needed > damping_max, swing_m);
+        Passive { force: wanted - needed.min(damping_max) * moved / dt, acts: true }
     }
 
-    fn forget(&mut self, acting: DVec3, wanted: DVec3, dt: Seconds) {
-        if acting == DVec3::ZERO && wanted == DVec3::ZERO {
-            self.idle_s += dt;
-            if self.idle_s >= FORGET_S {
-                (self.energy_j, self.factor) = (0.0, 1.0);
-            }
-        } else {
-            self.idle_s = 0.0;
+    /// A contact begins, goes on, or ends.
+    fn notice(&mut self, is_felt: bool, dt: Seconds) {
+        let was_felt = std::mem::replace(&mut self.is_felt, is_felt);
+        if is_felt && !was_felt {
+            (self.account_j, self.most_j) = (self.account_j.min(0.0), 0.0);
+        } else if was_felt && !is_felt {
+            self.account_j = self.account_j.min(0.0).min(self.account_j - KEPT * self.most_j);
+        } else if !is_felt {
+            self.factor = (self.factor + GROWTH_1_S * dt).min(1.0);
         }
     }
 
-    /// Lowers the stiffness of a loop that swings although the controller works.
-    fn look(&mut self, position: DVec3, dt: Seconds, acts: bool, swing_m: f64) {
+    /// Lowers the stiffness of a loop that swings although the controller does what it may.
+    fn look(&mut self, position: DVec3, dt: Seconds, is_at_most: bool, swing_m: f64) {
         self.look_s += dt;
-        self.busy_s += if acts { dt } else { 0.0 };
+        self.busy_s += if is_at_most { dt } else { 0.0 };
         self.low = self.low.min(position);
         self.high = self.high.max(position);
         if self.look_s < LOOK_S {
@@ -162,5 +178,21 @@ mod tests {
         assert!((out.force.x + 0.5).abs() < 1e-12);
         passivity.reset();
         assert!(!passivity.pass(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.001, 5.0, 1.0).acts);
+    }
+
+    #[test]
+    fn a_loop_that_swings_under_full_damping_is_softened_and_one_that_rests_is_not() {
+        let mut passivity = Passivity::new();
+        let mut ticks = |n: u32, swing: f64| {
+            for k in 0..n {
+                let x = if k % 2 == 0 { swing } else { 0.0 };
+                // The force always goes along with the motion.
+                let force = if k % 2 == 0 { 5.0 } else { -5.0 };
+                passivity.pass(DVec3::ZERO, DVec3::X * force, DVec3::X * x, 0.001, 5.0, 1e-4);
+            }
+            passivity.factor()
+        };
+        assert_eq!(ticks(1_000, 0.00005), 1.0);
+        assert!(ticks(1_000, 0.001) < 0.1);
     }
 }

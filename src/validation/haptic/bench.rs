@@ -76,6 +76,7 @@ impl Bench {
 pub(super) fn bare(spec: &DeviceSpec) -> ServoSettings {
     ServoSettings {
         velocity_filter_hz: f64::INFINITY,
+        stiffness_max_n_m: f64::INFINITY,
         safety: SafetySettings::OFF,
         ..ServoSettings::of(spec)
     }
