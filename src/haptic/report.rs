@@ -1,9 +1,13 @@
 //! What the servo tells of a tick: one plain value, for slots, rings and files.
 
 use super::device::{DeviceState, Force};
+use crate::cue::CuePiece;
 use crate::ids::BallId;
 use crate::units::Seconds;
 use glam::DVec3;
+
+/// Two samples that differ less from one parabola are joined by it [m].
+const JOINED_M: f64 = 1e-9;
 
 /// A sample of the stylus, as the input takes it to the physics.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
@@ -22,6 +26,31 @@ pub struct StylusSample {
     pub direction: DVec3,
     /// The stroke stabiliser holds: the tip moves along its shaft.
     pub stabilised: bool,
+}
+
+impl StylusSample {
+    /// The way of the tip from `before` to this sample as a piece of a cue path that begins at
+    /// `start_s` and holds for `duration_s`; what follows replaces it after `dt`.
+    ///
+    /// The parabola that the servo has reckoned with, so that physics finds the same contact.
+    pub fn piece(&self, before: &StylusSample, start_s: Seconds, duration_s: Seconds) -> CuePiece {
+        let joined = before.tip + 0.5 * (before.velocity + self.velocity) * self.dt;
+        let (velocity, acceleration) = if joined.distance(self.tip) < JOINED_M {
+            (before.velocity, (self.velocity - before.velocity) / self.dt)
+        } else {
+            // The tip was held by something, or laid elsewhere.
+            ((self.tip - before.tip) / self.dt, DVec3::ZERO)
+        };
+        CuePiece {
+            start_s,
+            duration_s,
+            position: before.tip,
+            velocity,
+            acceleration,
+            direction: before.direction,
+            direction_end: self.direction,
+        }
+    }
 }
 
 /// What the tip touched.

@@ -4,8 +4,12 @@
 //! an allocation, and a tick never sees half of a change (paper, section 3.3.1).
 
 use super::effect::EffectSet;
+use super::settings::ReachSettings;
+use crate::ball::{Ball, BallState};
+use crate::cue::Aim;
 use crate::ids::BallId;
-use crate::physics::Contact;
+use crate::physics::laws::Mover;
+use crate::physics::{Contact, Parameters};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -97,6 +101,20 @@ impl HapticBall {
         inverse_mass: 0.0,
         inverse_inertia: 0.0,
     };
+
+    /// A ball in motion.
+    pub fn of(ball: &Ball, state: &BallState) -> Self {
+        let mover = Mover::new(ball, state.velocity, state.angular_velocity);
+        HapticBall {
+            id: ball.id,
+            position: state.position,
+            velocity: state.velocity,
+            angular_velocity: state.angular_velocity,
+            radius_m: ball.radius_m,
+            inverse_mass: mover.inverse_mass,
+            inverse_inertia: mover.inverse_inertia,
+        }
+    }
 }
 
 /// How the workspace of the device lies in the world (paper, section 3.3.3).
@@ -126,6 +144,29 @@ pub struct Reach {
     pub cue: Option<CueBody>,
 }
 
+impl Reach {
+    /// The workspace behind a ball whose middle is at `pivot`, in the direction of `aim`.
+    pub fn to_ball(
+        serial: u32,
+        pivot: DVec3,
+        aim: &Aim,
+        settings: &ReachSettings,
+        parameters: &Parameters,
+    ) -> Self {
+        Reach {
+            serial,
+            pivot,
+            azimuth_rad: aim.azimuth_rad,
+            elevation_rad: aim.elevation_rad,
+            scale: settings.scale,
+            stroke_gain: settings.stroke_gain,
+            turns: true,
+            tip_radius_m: parameters.tip_radius_m,
+            cue: Some(CueBody::of(parameters)),
+        }
+    }
+}
+
 /// The cue, as the law of the stroke sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CueBody {
@@ -137,4 +178,16 @@ pub struct CueBody {
     pub contact: Contact,
     /// Rate at which the hand draws the cue back to its path after a contact [rad/s].
     pub coupling_rad_s: f64,
+}
+
+impl CueBody {
+    /// The cue of these parameters.
+    pub fn of(parameters: &Parameters) -> Self {
+        CueBody {
+            mass_kg: parameters.cue_mass_kg,
+            end_mass_kg: parameters.cue_end_mass_kg,
+            contact: parameters.tip,
+            coupling_rad_s: parameters.cue_coupling_rad_s,
+        }
+    }
 }

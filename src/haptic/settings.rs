@@ -32,7 +32,10 @@ impl ServoSettings {
             latency_s: spec.latency_s,
             velocity_filter_hz: 60.0,
             stiffness_max_n_m: stiffness_for(spec, 0.0),
-            coupling: CouplingSettings::default(),
+            coupling: CouplingSettings {
+                tracking_rad_s: if spec.quantum_m > 0.0 { 300.0 } else { f64::INFINITY },
+                ..CouplingSettings::default()
+            },
             transient: TransientSettings::default(),
             reach: ReachSettings::default(),
             safety: SafetySettings::of(spec),
@@ -78,7 +81,8 @@ pub struct CouplingSettings {
     /// How much of the lag of a cue that has struck is felt: 1 as much as a spring of this
     /// stiffness gives, 0 only the blow.
     pub recoil: f64,
-    /// Rate of the tracker between device and tip [rad/s]; infinite: none.
+    /// Rate of the spring that draws the tip after the device [rad/s]; infinite: it is where the
+    /// device is.
     pub tracking_rad_s: f64,
     /// Friction of everything that is touched.
     pub friction: f64,
@@ -132,6 +136,11 @@ impl Default for TransientSettings {
 pub struct ReachSettings {
     /// Width, height and depth of the box that is used [m].
     pub box_m: glam::DVec3,
+    /// Metres of the world per metre of the device.
+    pub scale: f64,
+    /// Further factor along the shaft during a stroke: with it a hand at 1.5 m/s leads the tip at
+    /// 8.25 m/s, which breaks with a cue ball at 11 m/s.
+    pub stroke_gain: f64,
     /// How far inside of its faces the edge planes stand [m].
     pub edge_m: f64,
     /// Stiffness of the edge planes [N/m].
@@ -152,6 +161,8 @@ impl Default for ReachSettings {
     fn default() -> Self {
         ReachSettings {
             box_m: glam::DVec3::new(0.160, 0.120, 0.070),
+            scale: 2.0,
+            stroke_gain: 2.75,
             edge_m: 0.010,
             edge_stiffness_n_m: 200.0,
             turn_rad_s_m: 150.0,

@@ -1,21 +1,19 @@
 //! The tip on its way: a smooth motion that follows the device, as physics gets it.
 //!
 //! Encoders step by 0.055 mm, which is 55 mm/s at 1 kHz and five times that at the tip. A
-//! critically damped tracker (g-h filter) takes that out and has no lag at constant speed; the path
-//! of the tip then is drawn to the tracker slowly, so that its speed stays as smooth. Its pieces
-//! are parabolas that join in place and speed.
+//! critically damped spring draws the tip after the device, as it draws it after a mouse: at
+//! constant speed it has exactly the speed of the device, two time constants behind, and it never
+//! is faster than the device was. The pieces of its path are parabolas that join in place and
+//! speed. What the hand feels of things it lies against does not go through this: there every
+//! millisecond of delay costs stability.
 
+use crate::physics::spring;
 use crate::units::Seconds;
 use glam::DVec3;
 
-/// Rate at which the path is drawn to the tracker [1/s].
-const DRAWN_1_S: f64 = 50.0;
-
-/// The tracker, and the path.
+/// The path.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tip {
-    tracked: DVec3,
-    tracked_velocity: DVec3,
     at: DVec3,
     velocity: DVec3,
     is_laid: bool,
@@ -45,24 +43,23 @@ impl Tip {
 
     /// Rests at a place.
     pub fn lay(&mut self, at: DVec3) {
-        *self = Tip { tracked: at, at, is_laid: true, ..Tip::default() };
+        *self = Tip { at, velocity: DVec3::ZERO, is_laid: true };
     }
 
-    /// Follows `target` over `dt`, with a tracker of rate `rate_rad_s`; infinite: exactly.
+    /// Follows `target` over `dt`, drawn with `rate_rad_s`; infinite: exactly and straight.
     pub fn follow(&mut self, target: DVec3, rate_rad_s: f64, dt: Seconds) -> Piece {
         if !self.is_laid {
             self.lay(target);
         }
         let (from, before) = (self.at, self.velocity);
-        let ahead = self.tracked + self.tracked_velocity * dt;
-        let off = target - ahead;
-        let theta = libm::exp(-rate_rad_s * dt);
-        self.tracked = ahead + off * (1.0 - theta * theta);
-        self.tracked_velocity += off * ((1.0 - theta) * (1.0 - theta) / dt);
-
-        let drawn = (DRAWN_1_S * dt).min(1.0) / dt;
-        let expected = from + 0.5 * (before + self.tracked_velocity) * dt;
-        self.velocity = self.tracked_velocity + (self.tracked - expected) * drawn;
+        if !rate_rad_s.is_finite() {
+            self.velocity = (target - from) / dt;
+            self.at = target;
+            return Piece { from, velocity: self.velocity, velocity_end: self.velocity };
+        }
+        let [_, to_speed] = spring::propagator(rate_rad_s, 1.0, dt);
+        self.velocity = to_speed[0] * (from - target) + to_speed[1] * before;
+        // The path is the truth: where its parabola ends, the next one begins.
         self.at = from + 0.5 * (before + self.velocity) * dt;
         Piece { from, velocity: before, velocity_end: self.velocity }
     }
@@ -80,17 +77,19 @@ mod tests {
 
     /// Steps of an Omni's encoder on a tip five times as fast [m].
     const STEP_M: f64 = 5.0 * 5.5e-5;
+    const RATE: f64 = 300.0;
 
     #[test]
-    fn at_constant_speed_the_tip_is_where_the_device_is() {
+    fn at_constant_speed_the_tip_is_as_fast_as_the_device_two_time_constants_behind() {
         for speed in [0.5, 2.0, 8.0] {
             let mut tip = Tip::default();
             for tick in 0..400 {
                 let target = DVec3::X * (speed * f64::from(tick) * 0.001);
-                tip.follow(target, 300.0, 0.001);
-                if tick > 200 {
-                    assert!(tip.at().distance(target) < 1e-4 * speed, "{tick}");
-                    assert!((tip.velocity().x / speed - 1.0).abs() < 1e-4);
+                tip.follow(target, RATE, 0.001);
+                if tick > 100 {
+                    assert!((tip.velocity().x / speed - 1.0).abs() < 1e-6, "{tick}");
+                    let behind_s = (target - tip.at()).x / speed;
+                    assert!((behind_s - 2.0 / RATE).abs() < 0.000_6, "{behind_s}");
                 }
             }
         }
@@ -104,13 +103,27 @@ mod tests {
             for tick in 0..2_000 {
                 let x = speed * f64::from(tick) * 0.001;
                 let read = libm::floor(x / STEP_M) * STEP_M;
-                tip.follow(DVec3::X * read, 300.0, 0.001);
+                tip.follow(DVec3::X * read, RATE, 0.001);
                 if tick > 200 {
                     worst = worst.max((tip.velocity().x / speed - 1.0).abs());
                 }
             }
-            assert!(worst < 0.03, "{speed}: {worst}");
+            assert!(worst < 0.02, "{speed}: {worst}");
         }
+    }
+
+    #[test]
+    fn a_tip_is_never_faster_than_its_device_was() {
+        let mut tip = Tip::default();
+        let mut x = 0.0;
+        for tick in 0..300 {
+            // From rest to 5 m/s in 20 ms, and on.
+            let speed = (0.25 * f64::from(tick)).min(5.0);
+            x += speed * 0.001;
+            tip.follow(DVec3::X * x, RATE, 0.001);
+            assert!(tip.velocity().x < 5.0 + 1e-9);
+        }
+        assert!((tip.velocity().x - 5.0).abs() < 1e-9);
     }
 
     #[test]
@@ -120,7 +133,7 @@ mod tests {
         for tick in 0..500 {
             let x = 0.05 * libm::sin(f64::from(tick) * 0.02);
             let dt = if tick % 7 == 0 { 0.0016 } else { 0.001 };
-            let piece = tip.follow(DVec3::new(x, 0.3 * x, 0.0), 300.0, dt);
+            let piece = tip.follow(DVec3::new(x, 0.3 * x, 0.0), RATE, dt);
             if let Some((at, velocity)) = last {
                 assert_eq!((piece.from, piece.velocity), (at, velocity));
             }

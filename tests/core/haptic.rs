@@ -1,4 +1,6 @@
 //! The haptic renderer: closed loops, effects, safety, strokes.
 
 mod cases;
+mod rig;
+mod strokes;
 mod walls;
