@@ -1,6 +1,11 @@
 //! The haptic renderer: closed loops, effects, safety, strokes.
 
+mod allocation;
 mod cases;
+mod effects;
+mod guard;
 mod rig;
 mod strokes;
+mod touch;
 mod walls;
+mod workspace;

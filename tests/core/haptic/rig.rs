@@ -15,6 +15,8 @@ use hapticbillard::table::Table;
 use std::sync::Arc;
 
 pub const TICK_S: f64 = 0.001;
+/// The cue is drawn back and waits.
+pub const READY_TICKS: u64 = 1_100;
 
 /// Where the stylus is pressed, how far it is drawn back, to where the stroke is steady, and where
 /// it ends [m]: all within the workspace.
@@ -39,6 +41,7 @@ impl Room {
     }
 }
 
+#[derive(Clone)]
 pub struct Rig {
     pub device: SimulatedDevice,
     pub servo: Servo,
@@ -128,12 +131,12 @@ impl Rig {
 }
 
 /// A hand that waits, presses the front button, draws back, strikes at `speed_m_s` and stops.
-/// `phase_s` shifts everything against the ticks.
+/// `phase_s` shifts the stroke against the ticks.
 pub fn stroke(speed_m_s: f64, phase_s: f64) -> HandScript {
     let at = |z: f64| DVec3::new(0.0, 0.0, z);
     let hold = |leg: Leg| leg.holding(Buttons::FRONT);
-    // From rest to the speed over half the way, then steadily through the ball.
-    let steady_z = 0.5 * (BACK_Z + PRESS_Z);
+    // From rest to the speed over a part of the way, then steadily through the ball.
+    let steady_z = 0.6 * BACK_Z + 0.4 * PRESS_Z;
     let rise_s = 2.0 * (BACK_Z - steady_z) / speed_m_s;
     let through_s = (steady_z - STEADY_Z) / speed_m_s;
     let fall_s = 2.0 * (STEADY_Z - END_Z) / speed_m_s;
@@ -141,10 +144,10 @@ pub fn stroke(speed_m_s: f64, phase_s: f64) -> HandScript {
     HandScript::practised(
         at(PRESS_Z),
         vec![
-            Leg::to(at(PRESS_Z), 0.6 + phase_s),
+            Leg::to(at(PRESS_Z), 0.6),
             hold(Leg::to(at(PRESS_Z), 0.02)),
             hold(Leg::to(at(BACK_Z), 0.25)),
-            hold(Leg::to(at(BACK_Z), 0.3)),
+            hold(Leg::to(at(BACK_Z), 0.3 + phase_s)),
             hold(Leg::through(at(steady_z), ahead, rise_s)),
             hold(Leg::through(at(STEADY_Z), ahead, through_s)),
             hold(Leg::to(at(END_Z), fall_s)),
@@ -172,10 +175,21 @@ pub struct Felt {
     pub strikes: usize,
 }
 
-/// Plays `script` and says what was felt of the first contact with a ball.
-pub fn play(room: &Room, script: HandScript, hand: HandModel, aim: &Aim) -> Felt {
-    let ticks = (script.duration_s() / TICK_S) as u64;
-    let mut rig = Rig::new(room, script, hand, aim);
+/// Everything before the stroke, which is the same for all of them: the cue is drawn back.
+pub fn drawn_back(room: &Room, hand: HandModel, aim: &Aim) -> Rig {
+    let mut rig = Rig::new(room, stroke(1.0, 0.0), hand, aim);
+    for _ in 0..READY_TICKS {
+        rig.tick();
+    }
+    assert!(rig.servo.report().sample.stabilised);
+    rig
+}
+
+/// Goes on with `script`, and says what was felt of the first contact with a ball.
+pub fn play(ready: &Rig, script: HandScript) -> Felt {
+    let ticks = (script.duration_s() / TICK_S) as u64 - READY_TICKS;
+    let mut rig = ready.clone();
+    *rig.device.guide_mut() = Guide::Script(script);
     let (mut contact, mut after) = (None, 0_u64);
     let (mut peak_wanted_n, mut peak_sent_n, mut impulse_ns) = (0.0_f64, 0.0_f64, 0.0);
     let mut ball = DVec3::ZERO;
