@@ -38,9 +38,14 @@ mod safety;
 
 pub mod simulated;
 
+mod rehearsal;
+
+pub mod telemetry;
+
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
 pub use mesh::HapticMesh;
+pub use rehearsal::Rehearsal;
 pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;

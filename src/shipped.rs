@@ -11,6 +11,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),
+    ("haptic_touch", include_str!("../config/scenes/haptic_touch.toml")),
 ];
 
 /// The meshes of scenes, by file name: the text of `config/scenes/NAME`.

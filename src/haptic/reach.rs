@@ -2,13 +2,10 @@
 //! stabiliser (paper, section 3.3.3).
 
 use super::device::{Buttons, DeviceState};
-use super::scene::Reach;
+use super::scene::{BALL_SHARE, Reach};
 use super::settings::ReachSettings;
 use crate::units::Seconds;
 use glam::{DMat3, DVec3};
-
-/// The pivot's place in the device frame, as a share of half the depth towards −z.
-const BALL_SHARE: f64 = 0.4;
 
 /// A line that the tip is held to while the front button is.
 #[derive(Debug, Clone, Copy)]

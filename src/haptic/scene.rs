@@ -13,6 +13,10 @@ use crate::physics::{Contact, Parameters};
 use crate::units::Seconds;
 use glam::DVec3;
 
+/// The pivot's place in the device frame, as a share of half the depth towards −z (paper, section
+/// 3.3.3).
+pub(super) const BALL_SHARE: f64 = 0.4;
+
 /// Most balls that can be felt at a time: those of snooker.
 pub const BALLS_MAX: usize = 22;
 
@@ -163,6 +167,34 @@ impl Reach {
             turns: true,
             tip_radius_m: parameters.tip_radius_m,
             cue: Some(CueBody::of(parameters)),
+        }
+    }
+
+    /// The workspace round everything between `low` and `high` [m], seen along +x: its middle is
+    /// theirs, and its scale such that a tip gets round them in height and width. Nothing can be
+    /// struck.
+    pub fn around(
+        serial: u32,
+        low: DVec3,
+        high: DVec3,
+        tip_radius_m: f64,
+        settings: &ReachSettings,
+    ) -> Self {
+        // The device's width is the world's y, its height the world's z.
+        let size = (high - low).max(DVec3::ZERO) + DVec3::splat(4.0 * tip_radius_m);
+        let room = settings.box_m - DVec3::splat(2.0 * settings.edge_m);
+        let scale = (size.y / room.x).max(size.z / room.y);
+        let ahead_m = 0.5 * BALL_SHARE * settings.box_m.z * scale;
+        Reach {
+            serial,
+            pivot: 0.5 * (low + high) + DVec3::X * ahead_m,
+            azimuth_rad: 0.0,
+            elevation_rad: 0.0,
+            scale,
+            stroke_gain: 1.0,
+            turns: true,
+            tip_radius_m,
+            cue: None,
         }
     }
 }

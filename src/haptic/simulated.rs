@@ -10,6 +10,7 @@ mod linear;
 mod mouse;
 mod plant;
 mod script;
+mod stroke;
 
 pub use hand::HandModel;
 pub use mouse::{MouseFeel, MouseHand};

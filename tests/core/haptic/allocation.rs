@@ -1,6 +1,6 @@
 //! A tick allocates nothing: an allocator that counts, for each thread alone.
 
-use super::rig::{READY_TICKS, Room, TICK_S, drawn_back, stroke};
+use super::rig::{READY_TICKS, TICK_S, drawn_back, stroke};
 use glam::DVec3;
 use hapticbillard::cue::Aim;
 use hapticbillard::haptic::simulated::{Guide, HandModel};
@@ -77,9 +77,8 @@ fn effects(generation: u32) -> EffectSet {
 
 #[test]
 fn a_tick_with_table_balls_effects_and_a_stroke_allocates_nothing() {
-    let room = Room::new();
     let aim = Aim { azimuth_rad: 0.3, elevation_rad: 0.3, ..Aim::default() };
-    let mut rig = drawn_back(&room, HandModel::GRIP, &aim);
+    let mut rig = drawn_back(HandModel::GRIP, &aim);
     for id in 2..16 {
         let ball = HapticBall {
             id: BallId(id),

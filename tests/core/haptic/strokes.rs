@@ -1,12 +1,12 @@
 //! Strokes of a simulated hand on a simulated Omni, at the shipped settings.
 
-use super::rig::{Felt, Rig, Room, balls, drawn_back, play, stroke};
+use super::rig::{Felt, balls, drawn_back, play, stroke};
 use crate::input::desk::Desk;
 use glam::DVec2;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::FactKind;
-use hapticbillard::haptic::ReachSettings;
 use hapticbillard::haptic::simulated::HandModel;
+use hapticbillard::haptic::{ReachSettings, Rehearsal};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::HumanMode;
 use hapticbillard::scene::Scene;
@@ -19,7 +19,7 @@ fn aim() -> Aim {
 }
 
 /// The same stroke at so many phases.
-fn strokes(ready: &Rig, speed_m_s: f64, phases: u32) -> Vec<Felt> {
+fn strokes(ready: &Rehearsal, speed_m_s: f64, phases: u32) -> Vec<Felt> {
     let phase_s = |k: u32| 0.004 * (f64::from(k) + 0.5) / f64::from(phases);
     (0..phases).map(|k| play(ready, stroke(speed_m_s, phase_s(k)))).collect()
 }
@@ -33,9 +33,8 @@ fn relative_deviation(values: impl Iterator<Item = f64> + Clone) -> f64 {
 
 #[test]
 fn the_same_stroke_feels_the_same_at_any_phase_of_the_ticks() {
-    let room = Room::new();
     for hand in [HandModel::GRIP, HandModel::ARM] {
-        let ready = drawn_back(&room, hand, &aim());
+        let ready = drawn_back(hand, &aim());
         for speed_m_s in [0.2, 0.5, 0.8] {
             let felt = strokes(&ready, speed_m_s, PHASES);
             let peak = relative_deviation(felt.iter().map(|felt| felt.peak_wanted_n));
@@ -50,9 +49,8 @@ fn the_same_stroke_feels_the_same_at_any_phase_of_the_ticks() {
 
 #[test]
 fn a_stroke_is_felt_within_a_tick_and_never_above_the_limit() {
-    let room = Room::new();
     for hand in [HandModel::GRIP, HandModel::ARM] {
-        let ready = drawn_back(&room, hand, &aim());
+        let ready = drawn_back(hand, &aim());
         for speed_m_s in [0.2, 0.6, 1.0, 1.4, 2.0] {
             for felt in strokes(&ready, speed_m_s, PHASES / 5) {
                 assert_eq!(felt.strikes, 1, "{speed_m_s}");
@@ -66,8 +64,7 @@ fn a_stroke_is_felt_within_a_tick_and_never_above_the_limit() {
 
 #[test]
 fn what_the_hand_feels_is_what_the_physics_does() {
-    let room = Room::new();
-    let ready = drawn_back(&room, HandModel::FIRM, &aim());
+    let ready = drawn_back(HandModel::FIRM, &aim());
     for speed_m_s in [0.2, 0.7, 1.5] {
         for felt in strokes(&ready, speed_m_s, PHASES / 10) {
             // The same law on the same ball: the closing speeds agree to rounding.
@@ -117,7 +114,6 @@ fn mouse_stroke(tip_m_s: f64) -> (DVec2, f64, Aim) {
 
 #[test]
 fn stylus_and_mouse_make_the_same_stroke() {
-    let room = Room::new();
     let reach = ReachSettings::default();
     let gain = reach.scale * reach.stroke_gain;
     for hand_m_s in [0.2, 0.5, 1.0, 1.5, 2.0] {
@@ -125,7 +121,7 @@ fn stylus_and_mouse_make_the_same_stroke() {
         let (mouse, tip_m_s, aim) = mouse_stroke(hand_m_s * gain);
         assert!(tip_m_s > 0.9 * hand_m_s * gain);
         let hand_m_s = tip_m_s / gain;
-        let ready = drawn_back(&room, HandModel::ARM, &aim);
+        let ready = drawn_back(HandModel::ARM, &aim);
         for felt in strokes(&ready, hand_m_s, PHASES / 10) {
             let stylus = felt.ball.truncate();
             let speed = stylus.length() / mouse.length() - 1.0;
@@ -138,7 +134,7 @@ fn stylus_and_mouse_make_the_same_stroke() {
 
 #[test]
 fn a_hand_at_one_and_a_half_metres_a_second_breaks_harder_than_8_m_s() {
-    let ready = drawn_back(&Room::new(), HandModel::ARM, &aim());
+    let ready = drawn_back(HandModel::ARM, &aim());
     let felt = play(&ready, stroke(1.5, 0.0));
     assert!(felt.ball.length() > 8.0, "{}", felt.ball);
 }

@@ -7,6 +7,7 @@ use hapticbillard::haptic::{
     Device, DeviceSpec, DeviceState, HapticBall, HapticMesh, HapticScene, Reach, ReachSettings,
     SafetySettings, Servo, ServoReport, ServoSettings, Touched,
 };
+use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
 use std::sync::Arc;
 
@@ -227,4 +228,42 @@ fn crossing_a_diamond_is_felt() {
     };
     let (over, beside) = (wobble(sight), wobble(sight + DVec3::X * 0.1));
     assert!(over > 0.000_5 && over > 5.0 * beside, "{over} m over it, {beside} m beside it");
+}
+
+#[test]
+fn the_spheres_of_the_shipped_scene_are_felt_all_round() {
+    let text = hapticbillard::shipped::scene("haptic_touch").unwrap();
+    let scene = Scene::parse("haptic_touch", text).unwrap();
+    assert!(scene.haptic.is_some() && scene.rules.is_none() && scene.cue.is_none());
+    let table = scene.build_table(&mut |_| Err(String::new())).unwrap();
+    let balls = scene.build_balls(&table).unwrap();
+    let reached =
+        |f: fn(DVec3, f64) -> DVec3| balls.iter().map(move |(b, s)| f(s.position, b.radius_m));
+    let low = reached(|p, r| p - r).fold(DVec3::INFINITY, DVec3::min);
+    let high = reached(|p, r| p + r).fold(DVec3::NEG_INFINITY, DVec3::max);
+    let reach = Reach::around(1, low, high, TIP_M, &ReachSettings::default());
+    let mut felt = HapticScene { reach: Some(reach), ..HapticScene::default() };
+    for (ball, state) in &balls {
+        assert!(felt.add(HapticBall::of(ball, state)));
+    }
+    let middle = 0.5 * (low + high);
+    for (ball, state) in &balls {
+        for side in [DVec3::Z, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_X] {
+            // From outside onto the ball, 2 mm too deep.
+            let mut servo = bare(Arc::new(HapticMesh::of(&table)), 0.0);
+            let touching = ball.radius_m + TIP_M;
+            let mut report = ServoReport::default();
+            for k in 0..60 {
+                let way = touching + 0.005 - 0.007 * f64::from(k.min(50)) / 50.0;
+                let position = device(state.position + side * way - middle, reach.scale);
+                let state = DeviceState { position, ..DeviceState::default() };
+                servo.tick(&state, &felt, TICK_S);
+                report = *servo.report();
+            }
+            let force = report.force.0;
+            // The edges of the workspace may push as well, from the sides.
+            assert!(force.dot(device(side, 1.0)) > 0.3, "ball {}, {side}: {force}", ball.id);
+            assert!((report.depth_m * reach.scale - 0.002).abs() < 2e-4, "{}", report.depth_m);
+        }
+    }
 }
