@@ -5,6 +5,7 @@ mod cases;
 mod effects;
 mod guard;
 mod rig;
+mod section;
 mod strokes;
 mod touch;
 mod walls;

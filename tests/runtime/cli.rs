@@ -68,7 +68,10 @@ fn every_command_teaches_with_an_example() {
         );
         assert!(help.contains("Examples:"), "{help}");
     }
+    let help = program(&["haptic", "simulate", "--help"]);
+    assert!(text(&help.stdout).contains("Examples:\n  hapticbillard haptic simulate"), "{help:?}");
     let help = program(&["--help"]);
+    assert!(text(&help.stdout).contains("haptic"));
     assert!(commands.iter().all(|command| text(&help.stdout).contains(command)));
 }
 

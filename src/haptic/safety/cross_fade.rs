@@ -135,7 +135,7 @@ mod tests {
         for tick in 0..2_000_u32 {
             // Another set every 13 ms, of up to 3 N either way.
             let n = tick / 13;
-            let set = constant(n, [3.0, -3.0, 0.5, 2.0, -1.0][n as usize % 5]);
+            let set = constant(n + 1, [3.0, -3.0, 0.5, 2.0, -1.0][n as usize % 5]);
             let now = fade.force(&set, &hand(), 0.05).force.x;
             // 6 N in 50 ms, and as much again from what is left over.
             assert!((now - last).abs() <= 0.31, "{tick}: {last} to {now}");

@@ -188,7 +188,7 @@ mod tests {
                 let x = if k % 2 == 0 { swing } else { 0.0 };
                 // The force always goes along with the motion.
                 let force = if k % 2 == 0 { 5.0 } else { -5.0 };
-                passivity.pass(DVec3::ZERO, DVec3::X * force, DVec3::X * x, 0.001, 5.0, 1e-4);
+                passivity.pass(DVec3::X, DVec3::X * force, DVec3::X * x, 0.001, 5.0, 1e-4);
             }
             passivity.factor()
         };
