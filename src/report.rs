@@ -23,6 +23,6 @@ pub use method::{METHODS, Method, STEPS_MS};
 pub use order::{all_methods, fitted_order, on_the_front, orders};
 pub use stability::{
     CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
-    pieces_limit, rest_rows, spring_cell, spring_limit,
+    rest_rows, spring_cell, spring_limit,
 };
 pub use trial::{Failure, Prepared, Row, Status, Track, judge, left_out};

@@ -59,11 +59,13 @@ pub struct SimulateArgs {
     #[arg(long, value_enum)]
     pub solver: Option<SolverName>,
 
-    /// In place of the scene's step, in milliseconds.
+    /// In place of the scene's step of fixed-step, in milliseconds; with --bench that of the
+    /// stepper beside an exact solver.
     #[arg(long, value_name = "H", value_parser = step_ms)]
     pub step_ms: Option<f64>,
 
-    /// In place of the scene's integrator.
+    /// In place of the scene's integrator of fixed-step; with --bench that of the stepper beside an
+    /// exact solver.
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
 
@@ -152,10 +154,27 @@ fn override_physics(args: &SimulateArgs, physics: &mut PhysicsSettings) {
     }
 }
 
+/// A step or an integrator given to a run that has none, because its solver is exact, would change
+/// nothing, and who compares integrators would not see why.
+fn check_step(args: &SimulateArgs, physics: &PhysicsSettings) -> Result<(), Error> {
+    if physics.solver == SolverKind::FixedStep || args.bench.is_some() {
+        return Ok(());
+    }
+    let given =
+        [("--step-ms", args.step_ms.is_some()), ("--integrator", args.integrator.is_some())];
+    let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+    Err(Error::input(
+        option.to_string(),
+        String::from("event-driven has no steps, so it would change nothing"),
+        "add --solver fixed-step, or leave it out",
+    ))
+}
+
 /// The scene, with what the command line says about it.
 fn stage(args: &SimulateArgs, name: &str) -> Result<Stage, Error> {
     let mut loaded = load_scene(name)?;
     override_scene(args, &mut loaded.scene);
+    check_step(args, &loaded.scene.physics)?;
     Stage::new(&loaded, name)
 }
 

@@ -19,11 +19,16 @@ mod course;
 mod lasting;
 mod motion;
 mod path;
+mod pivot;
 mod predict;
 #[cfg(test)]
 mod resegment;
 mod segment;
+#[cfg(test)]
+mod shortcuts;
 mod sweep;
+mod swing;
+mod swing_meets;
 mod tell;
 mod terrain;
 mod tip;

@@ -28,8 +28,7 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks,
-    tolerance,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks, tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
@@ -54,10 +53,7 @@ pub const CELL_M: f64 = 0.1;
 pub struct FixedStep {
     ground: Arc<Ground>,
     parameters: Parameters,
-    profile: Profile,
-    integrator: Integrator,
-    back_dating: bool,
-    step_ms: f64,
+    settings: PhysicsSettings,
     /// Length of a step [s].
     h: Seconds,
     /// All balls, in ascending order of id.
@@ -138,16 +134,39 @@ impl FixedStep {
         )?;
         checks::check_setting("cell_m", cell_m, 1e-9, 1e9, "must be a positive length")?;
         parameters.check()?;
+        let ground = Arc::new(Ground::new(table, cell_m));
+        Self::on(ground, cell_m, balls, settings.clone(), parameters)
+    }
+
+    /// Other balls at their start on the same table, which is prepared only once.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if a value is impossible or two balls overlap.
+    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
+        let (settings, parameters) = (self.settings.clone(), self.parameters.clone());
+        let world = Self::on(self.ground.clone(), self.cell_m, balls, settings, parameters)?;
+        Ok(FixedStep { skips: self.skips, rejects: self.rejects, ..world })
+    }
+
+    fn on(
+        ground: Arc<Ground>,
+        cell_m: f64,
+        balls: Vec<(Ball, BallState)>,
+        settings: PhysicsSettings,
+        parameters: Parameters,
+    ) -> Result<Self, PhysicsError> {
+        let bodies: Vec<Body> = checks::checked(balls)?
+            .into_iter()
+            .map(|(ball, state)| Body::new(ball, &state))
+            .collect();
+        let count = bodies.len();
         let h = settings.step_ms / 1000.0;
-        let empty = FixedStep {
-            ground: Arc::new(Ground::new(table, cell_m)),
+        let mut world = FixedStep {
+            ground,
             parameters,
-            profile: settings.profile,
-            integrator: settings.integrator,
-            back_dating: settings.contact_back_dating,
-            step_ms: settings.step_ms,
+            settings,
             h,
-            bodies: Vec::new(),
+            bodies,
             cue: None,
             step: 0,
             commands: VecDeque::new(),
@@ -162,39 +181,8 @@ impl FixedStep {
             ledger: Ledger::default(),
             work: Work::default(),
             tracks: None,
-            scratch: Scratch::new(cell_m, 0),
+            scratch: Scratch::new(cell_m, count),
             cell_m,
-        };
-        empty.with_balls(balls)
-    }
-
-    /// Other balls at their start on the same table, which is prepared only once.
-    ///
-    /// # Errors
-    /// [`PhysicsError`] if a value is impossible or two balls overlap.
-    pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
-        let bodies: Vec<Body> = checks::checked(balls)?
-            .into_iter()
-            .map(|(ball, state)| Body::new(ball, &state))
-            .collect();
-        let count = bodies.len();
-        let mut world = FixedStep {
-            ground: self.ground.clone(),
-            parameters: self.parameters.clone(),
-            bodies,
-            cue: None,
-            step: 0,
-            commands: VecDeque::new(),
-            pending: VecDeque::new(),
-            told: Vec::new(),
-            touching: Vec::new(),
-            moved: false,
-            rest_since: None,
-            ledger: Ledger::default(),
-            work: Work::default(),
-            tracks: None,
-            scratch: Scratch::new(self.cell_m, count),
-            ..*self
         };
         for index in 0..count {
             world.find_supports(index);
@@ -257,7 +245,7 @@ impl FixedStep {
 
     /// Grid time `step` [s].
     fn grid(&self, step: u64) -> Seconds {
-        step as f64 * self.step_ms / 1000.0
+        step as f64 * self.settings.step_ms / 1000.0
     }
 
     /// The first step whose grid time is not before `at`.
@@ -327,7 +315,7 @@ impl FixedStep {
         self.smooth();
 
         // Contacts.
-        match self.profile {
+        match self.settings.profile {
             Profile::Standard => self.sweep(start),
             Profile::Paper2009 => self.paper_contacts(start),
         }

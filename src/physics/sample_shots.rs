@@ -4,9 +4,10 @@
 //! numbers whatever they think of cues.
 
 use crate::ball::{Ball, BallState, Motion, POOL_RADIUS_M};
-use crate::ids::BallId;
+use crate::ids::{BallId, Rail};
+use crate::mesh::Surface;
 use crate::rack::{Rack, RackError};
-use crate::table::{Bed, Table};
+use crate::table::{Bed, Plane, Table};
 use glam::{DVec2, DVec3};
 use rand::{Rng, RngExt};
 
@@ -17,6 +18,8 @@ pub type Start = Vec<(Ball, BallState)>;
 const BREAK_M_S: core::ops::Range<f64> = 8.0..10.0;
 /// Speeds of the cue ball in a small shot [m/s].
 const SMALL_M_S: core::ops::Range<f64> = 0.5..5.0;
+/// Height of a cushion's nose over the diameter of a ball.
+const NOSE: f64 = 0.635;
 /// How far from straight a small shot meets its ball [°].
 const CUT_DEG: f64 = 60.0;
 /// How far from the middle the cue hits, over the ball's radius.
@@ -76,6 +79,31 @@ pub fn small_shot(table: &Table, random: &mut impl Rng) -> Result<Start, RackErr
     cue.angular_velocity = across * (spin * height) + DVec3::Z * (spin * side);
     cue.motion = Motion::Sliding;
     Ok(balls)
+}
+
+/// What a planar game needs of a table: a level bed, and four cushions of which each is the plane
+/// through its nose, leaning over as a nose does, so that it holds balls down. No mesh, no pockets.
+pub fn planar(table: &Table) -> Table {
+    let Some(bed) = table.bed else { return Table::plane() };
+    // A nose at 0.635 of a ball's diameter leans over by asin(0.27).
+    let sine: f64 = 2.0 * NOSE - 1.0;
+    let cosine = (1.0 - sine * sine).sqrt();
+    let half = DVec3::new(0.5 * bed.length_m, 0.5 * bed.width_m, 0.0);
+    let height = DVec3::Z * (2.0 * NOSE * POOL_RADIUS_M);
+    let mut flat = Table { name: table.name.clone(), bed: Some(bed), ..Table::plane() };
+    for (towards, rail) in [
+        (DVec3::X, Rail::Foot),
+        (DVec3::NEG_X, Rail::Head),
+        (DVec3::Y, Rail::Left),
+        (DVec3::NEG_Y, Rail::Right),
+    ] {
+        flat.planes.push(Plane {
+            point: half * towards + height,
+            normal: -towards * cosine - DVec3::Z * sine,
+            surface: Surface::Cushion(rail),
+        });
+    }
+    flat
 }
 
 fn anywhere(bed: &Bed, random: &mut impl Rng) -> DVec2 {

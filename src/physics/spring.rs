@@ -16,7 +16,53 @@ use glam::{DQuat, DVec3};
 /// S = sinh(s t)/s; cosine and sine for s² < 0. Near s = 0, S is taken from its series, so critical
 /// damping needs no special case; overdamped, the exponentials are joined before they overflow.
 pub fn propagator(omega_rad_s: f64, damping_ratio: f64, dt: Seconds) -> [[f64; 2]; 2] {
-    let (omega, sigma) = (omega_rad_s, damping_ratio * omega_rad_s);
+    Damped { omega: omega_rad_s, sigma: damping_ratio * omega_rad_s }.propagator(dt)
+}
+
+/// What a spring and a damper make of a coordinate: x″ = −ω² x − 2 σ x′. A damper alone has ω = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Damped {
+    /// √(k/m) [rad/s].
+    pub omega: f64,
+    /// d/(2 m) [1/s].
+    pub sigma: f64,
+}
+
+impl Damped {
+    /// A spring and a damper on an inertia; none if there is neither.
+    pub fn new(inertia: f64, stiffness: f64, damping: f64) -> Option<Self> {
+        let omega = (stiffness / inertia).sqrt();
+        let damped = Damped { omega, sigma: damping / (2.0 * inertia) };
+        (damped != Damped { omega: 0.0, sigma: 0.0 }).then_some(damped)
+    }
+
+    /// How fast the last of a motion dies away [1/s]; zero if it never does. Overdamped it is the
+    /// slower of the two exponents, −ω²/(σ + s).
+    pub fn decay(&self) -> f64 {
+        let Damped { omega, sigma } = *self;
+        if omega == 0.0 {
+            2.0 * sigma
+        } else if sigma <= omega {
+            sigma
+        } else {
+            omega * omega / (sigma + (sigma * sigma - omega * omega).sqrt())
+        }
+    }
+
+    /// Offset and speed after `dt`, from those now.
+    pub fn after(&self, offset: DVec3, velocity: DVec3, dt: Seconds) -> (DVec3, DVec3) {
+        let m = self.propagator(dt);
+        (offset * m[0][0] + velocity * m[0][1], offset * m[1][0] + velocity * m[1][1])
+    }
+
+    /// See [`propagator`].
+    pub fn propagator(&self, dt: Seconds) -> [[f64; 2]; 2] {
+        let Damped { omega, sigma } = *self;
+        carry(omega, sigma, dt)
+    }
+}
+
+fn carry(omega: f64, sigma: f64, dt: Seconds) -> [[f64; 2]; 2] {
     let s2 = sigma * sigma - omega * omega;
     let z = s2 * dt * dt;
 

@@ -78,9 +78,24 @@ pub const ABYSS_M: f64 = 1.0;
 /// back then. Larger: energy appears; smaller: more micro-impacts.
 pub const PRESS_M: f64 = 1e-7;
 
-/// A hop that begins slower than this is not followed; how long the rest of the series lasts is
-/// added in closed form [m/s]. Larger: paths differ by the height of the last hops.
-pub const HOP_M_S: f64 = 5e-5;
+/// A hop on level ground that begins slower than this is not followed; how long the rest of the
+/// series lasts is added in closed form [m/s]. Larger: paths differ by the height of the last hops,
+/// here a micrometre.
+pub const HOP_M_S: f64 = 5e-3;
+
+/// A hop slower than this is followed nowhere [m/s].
+pub const LEAST_HOP_M_S: f64 = 5e-5;
+
+/// Speed below which a hop off a surface is not followed [m/s]. `upright` is the part of the
+/// surface's normal against gravity.
+///
+/// A series of hops lasts 2v/(g n (1 − e)) and takes all of its energy with it, so nothing but the
+/// last 2 ms of a series is left out: what bounces without loss goes on for ever, and a wall has no
+/// hops.
+pub fn hop_m_s(restitution: f64, upright: f64) -> f64 {
+    let part = (2.0 * (1.0 - restitution)).clamp(0.0, 1.0) * upright.max(0.0);
+    (HOP_M_S * part).max(LEAST_HOP_M_S)
+}
 
 /// Smaller slip goes at once [m/s]; else 1e-7 m/s of it would breed sliding for 1e-7 s.
 pub const SLIP_M_S: f64 = 1e-5;
@@ -106,6 +121,9 @@ pub const BUSY_S: Seconds = 0.01;
 
 /// Step of the motion that has no closed form [s].
 pub const LASTING_STEP_S: Seconds = 5e-4;
+
+/// A ball that turns about an edge more slowly goes on that grid too [m/s]: resistance may stop it.
+pub const PIVOT_M_S: f64 = 5e-3;
 
 /// What lies still this long, slower than [`REST_M_S`], sleeps [s].
 pub const SLEEP_S: Seconds = 0.2;

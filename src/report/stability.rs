@@ -6,7 +6,7 @@ mod springs;
 
 pub use cases::CASES;
 pub use hertz::{HertzRow, hertz_rows};
-pub use springs::{Limit, RATIOS, STIFFNESSES, pieces_limit, spring_cell, spring_limit};
+pub use springs::{Limit, RATIOS, STIFFNESSES, spring_cell, spring_limit};
 
 use super::method::Method;
 use super::starts::{self, R, on_bed};

@@ -121,9 +121,13 @@ fn springs_become_unstable_where_theory_says() {
 }
 
 #[test]
-fn the_exact_solver_gives_up_a_spring_where_its_pieces_become_too_many() {
-    let limit = report::pieces_limit();
-    assert!((limit.measured / limit.theory - 1.0).abs() < 0.01, "{limit:?}");
+fn however_stiff_a_spring_the_exact_solver_follows_it_to_rounding() {
+    for ratio in report::RATIOS {
+        for stiffness in STIFFNESSES {
+            let cell = report::spring_cell(stiffness, ratio, Method::EventDriven);
+            assert_eq!(cell.class, Class::Exact, "{stiffness} {ratio} {cell:?}");
+        }
+    }
 }
 
 #[test]

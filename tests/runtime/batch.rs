@@ -170,10 +170,14 @@ fn a_bench_prints_times_events_and_the_ratio_to_the_stepper() {
     let output = program(&["simulate", "--bench", "2", "--json"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let lines = lines_of(&output.stdout);
-    assert_eq!(lines.len(), 5);
-    let groups = lines[4]["summary"]["groups"].as_array().unwrap();
-    for (group, name) in groups.iter().zip(["break", "small"]) {
+    assert_eq!(lines.len(), 9);
+    let groups = lines[8]["summary"]["groups"].as_array().unwrap();
+    let names = ["break", "small", "planar break", "planar small"];
+    assert_eq!(groups.len(), names.len());
+    for (group, name) in groups.iter().zip(names) {
         assert_eq!(group["group"], name);
+        let looks = group["work"]["pocket_tests"].as_u64().unwrap();
+        assert!(!name.starts_with("planar") || looks == 0, "{name}: {looks}");
         for key in ["events_per_shot", "us_per_event"] {
             assert!(group[key].as_f64().unwrap() > 0.0, "{key}");
         }

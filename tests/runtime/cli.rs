@@ -243,6 +243,22 @@ fn validate_refuses_what_is_no_catalogue_in_one_line() {
 }
 
 #[test]
+fn a_step_or_an_integrator_for_a_solver_without_steps_is_refused() {
+    let exact = ["simulate", "--scene", "one_ball", "--solver", "event-driven", "--until", "1"];
+    for option in [["--step-ms", "1"], ["--integrator", "rk4"]] {
+        let expected = format!(
+            "{}: event-driven has no steps, so it would change nothing; add --solver fixed-step, \
+             or leave it out",
+            option[0]
+        );
+        refused(&[&exact[..], &option].concat(), &expected);
+        // To measure beside it there is a stepper.
+        let bench = program(&[&exact[..], &option, &["--bench", "1"]].concat());
+        assert!(bench.status.success(), "{bench:?}");
+    }
+}
+
+#[test]
 fn play_without_a_display_says_so_in_one_line_and_plays_on() {
     let folder = folder("no_display");
     let output = Command::new(env!("CARGO_BIN_EXE_hapticbillard"))

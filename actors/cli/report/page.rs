@@ -125,8 +125,8 @@ fn overview(text: &mut String, measured: &[Measured]) {
         String::new()
     } else {
         format!(
-            " It costs more in {}: a spring is cut into pieces to look for contacts, however \
-             coarse an answer would do, and each event of many balls asks all of them.",
+            " It costs more in {}: each event of many balls asks all of them, however coarse an \
+             answer would do.",
             dearer.join(", ")
         )
     };

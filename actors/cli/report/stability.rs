@@ -22,8 +22,6 @@ pub struct Table {
     pub rows: Vec<Line>,
     /// For each integrator and damping: where it becomes unstable.
     pub limits: Vec<(Integrator, f64, Limit)>,
-    /// From which stiffness on the exact solver gives up a spring [N/m].
-    pub pieces: Limit,
     /// How a lying ball trembles.
     pub rest: Vec<RestRow>,
     /// The time of contact [s] and what steps make of it.
@@ -108,7 +106,6 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
     Ok(Table {
         rows,
         limits,
-        pieces: report::pieces_limit(),
         rest,
         hertz: report::hertz_rows(HERTZ_M_S),
         hops: hops.collect(),

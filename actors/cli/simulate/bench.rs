@@ -161,29 +161,44 @@ fn stepper(settings: &PhysicsSettings) -> PhysicsSettings {
     PhysicsSettings { solver: SolverKind::FixedStep, ..settings.clone() }
 }
 
-/// Breaks and small shots on the nine-foot table.
+/// Breaks and small shots on the nine-foot table, and on what is left of it when a scene needs
+/// neither mesh nor pockets nor flight.
 fn samples(args: &SimulateArgs, count: u32) -> Result<Vec<Group>, Error> {
     let table = Table::preset("pool-9ft").map_err(|error| {
         Error::input(String::from("pool-9ft"), error.to_string(), "name a scene with --scene")
     })?;
+    let planar = sample_shots::planar(&table);
+    let mut groups = on_table(args, count, &table, ["break", "small"])?;
+    groups.extend(on_table(args, count, &planar, ["planar break", "planar small"])?);
+    Ok(groups)
+}
+
+/// A group of breaks and one of small shots on a table.
+fn on_table(
+    args: &SimulateArgs,
+    count: u32,
+    table: &Table,
+    names: [&'static str; 2],
+) -> Result<Vec<Group>, Error> {
     let mut settings = PhysicsSettings::default();
     super::override_physics(args, &mut settings);
-    let empty = Simulation::from_parts(&table, Vec::new(), &settings)?;
+    let empty = Simulation::from_parts(table, Vec::new(), &settings)?;
     let stepper = match settings.solver {
         SolverKind::FixedStep => None,
         SolverKind::EventDriven => {
-            Some(Simulation::from_parts(&table, Vec::new(), &stepper(&settings))?)
+            Some(Simulation::from_parts(table, Vec::new(), &stepper(&settings))?)
         }
     };
     let mut groups = Vec::new();
-    for name in ["break", "small"] {
+    for name in names {
         let mut random = Pcg64::seed_from_u64(args.seed.unwrap_or(SEED));
         let mut first: Option<Simulation> = None;
         let mut shots = Vec::new();
         for _ in 0..count {
-            let balls = match name {
-                "break" => sample_shots::break_shot(&table, &mut random),
-                _ => sample_shots::small_shot(&table, &mut random),
+            let balls = if name == names[0] {
+                sample_shots::break_shot(table, &mut random)
+            } else {
+                sample_shots::small_shot(table, &mut random)
             };
             let balls = balls.map_err(hapticbillard::physics::PhysicsError::from)?;
             // Made once for balls of this size, then shared.
@@ -245,8 +260,8 @@ fn print(report: &Report, out: &mut dyn Write) -> Result<(), Error> {
     let Spread { mean, median, p99 } = report.cpu_us_per_shot;
     writeln!(
         out,
-        "{:<6} {} shots of {:.2} s: {mean:.1} us of processor time each (mean; median {median:.1}, \
-         99 % below {p99:.1})",
+        "{:<12} {} shots of {:.2} s: {mean:.1} us of processor time each (mean; median \
+         {median:.1}, 99 % below {p99:.1})",
         report.group, report.shots, report.simulated_s_per_shot
     )?;
     let n = report.shots as f64;
@@ -254,8 +269,8 @@ fn print(report: &Report, out: &mut dyn Write) -> Result<(), Error> {
     let work = &report.work;
     writeln!(
         out,
-        "       a shot: {:.1} events, {:.3} us each; {:.1} contacts, {:.1} steps, {:.1} pair and \
-         {:.1} face tests",
+        "             a shot: {:.1} events, {:.3} us each; {:.1} contacts, {:.1} steps, {:.1} pair \
+         and {:.1} face tests",
         report.events_per_shot,
         report.us_per_event.unwrap_or(0.0),
         each(work.contacts),
@@ -267,8 +282,8 @@ fn print(report: &Report, out: &mut dyn Write) -> Result<(), Error> {
         let Spread { mean, median, .. } = reference.cpu_us_per_shot;
         writeln!(
             out,
-            "       fixed-step, same shots: {mean:.1} us (mean; median {median:.1}), {:.0} steps; \
-             {:.1} times as long",
+            "             fixed-step, same shots: {mean:.1} us (mean; median {median:.1}), {:.0} \
+             steps; {:.1} times as long",
             reference.steps_per_shot, reference.ratio
         )?;
     }

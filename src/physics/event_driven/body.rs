@@ -110,14 +110,16 @@ impl Body {
         let s = &self.segment;
         !self.in_play()
             || s.course == Course::Rest
-            || s.velocity == DVec3::ZERO
+            || s.swing.is_none()
+                && s.velocity == DVec3::ZERO
                 && s.acceleration == DVec3::ZERO
                 && s.angular_velocity == DVec3::ZERO
     }
 
     /// Whether its centre stays where it is.
     pub fn stands(&self) -> bool {
-        self.segment.velocity == DVec3::ZERO && self.segment.acceleration == DVec3::ZERO
+        let s = &self.segment;
+        !s.swings() && s.velocity == DVec3::ZERO && s.acceleration == DVec3::ZERO
     }
 
     /// As the contact laws see it at `at`.

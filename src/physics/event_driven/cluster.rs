@@ -14,6 +14,9 @@ use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
 
+/// How often the overlaps of a cluster are looked at; it bounds the work.
+const WAYS_OUT_MAX: usize = 50;
+
 impl EventDriven {
     /// The partners of a contact, and from them outwards all balls that nearly touch.
     pub(super) fn cluster_of(&self, at: Seconds, partners: &[usize]) -> Changed {
@@ -135,23 +138,24 @@ impl EventDriven {
             }
         }
 
+        let depths: SmallVec<[DVec3; 16]> = self.ways_out(at, members, &pairs, &touches, &faces);
         let mut changed = Changed::new();
         for (place, index) in members.iter().enumerate() {
             let (old, new) = (&before[place], &movers[place]);
             let moved =
                 old.velocity != new.velocity || old.angular_velocity != new.angular_velocity;
-            if moved || *index == meets || !self.bodies[*index].stands() {
+            let parts = depths[place] != DVec3::ZERO;
+            if moved || parts || *index == meets || !self.bodies[*index].stands() {
                 changed.push(*index);
             }
         }
-        let depths: SmallVec<[DVec3; 16]> = self.ways_out(at, members, &pairs, &touches[..balls]);
         for (place, index) in members.iter().enumerate() {
             if !changed.contains(index) {
                 continue;
             }
             self.bodies[*index].met = None;
             if self.is_busy(at, *index) && (self.pressed(at, *index) || !faces.is_empty()) {
-                self.begin_lasting_with(at, *index, &movers[place], DVec3::ZERO);
+                self.begin_lasting_with(at, *index, &movers[place], depths[place]);
             } else {
                 self.go_on(at, *index, &movers[place], depths[place], 0.0);
             }
@@ -160,20 +164,36 @@ impl EventDriven {
         self.wake_neighbours(at, &changed);
     }
 
-    /// How the balls of a cluster that were pressed together part.
+    /// How the balls of a cluster that were pressed together, or into faces, part: each pair by its
+    /// shares, again and again until none overlaps, because who parts from one is pushed into the
+    /// next. On the level, so that no energy appears.
     fn ways_out(
         &self,
         at: Seconds,
         members: &[usize],
         pairs: &[(usize, usize)],
         touches: &[Touch],
+        faces: &[(usize, Feature)],
     ) -> SmallVec<[DVec3; 16]> {
         let mut shifts: SmallVec<[DVec3; 16]> = members.iter().map(|_| DVec3::ZERO).collect();
-        for ((a, b), touch) in pairs.iter().zip(touches) {
-            let (one, two) = self.part(at, *a, *b, touch.normal);
-            shifts[touch.a] += one;
-            if let Some(b) = touch.b {
-                shifts[b] += two;
+        let (pair_touches, face_touches) = touches.split_at(pairs.len());
+        for _ in 0..WAYS_OUT_MAX {
+            let mut clear = true;
+            for ((a, b), touch) in pairs.iter().zip(pair_touches) {
+                let Some(other) = touch.b else { continue };
+                let (one, two) = (shifts[touch.a], shifts[other]);
+                let (one, two) = self.part(at, (*a, one), (*b, two), touch.normal);
+                clear &= one == DVec3::ZERO && two == DVec3::ZERO;
+                shifts[touch.a] += one;
+                shifts[other] += two;
+            }
+            for ((index, feature), touch) in faces.iter().zip(face_touches) {
+                let out = self.way_out(at, (*index, shifts[touch.a]), touch.normal, *feature);
+                clear &= out == DVec3::ZERO;
+                shifts[touch.a] += out;
+            }
+            if clear {
+                break;
             }
         }
         shifts

@@ -78,7 +78,8 @@ impl EventDriven {
             Surface::Cushion(_) => self.parameters.cushion_at(approach),
             _ => self.parameters.surface(surface),
         };
-        let slow = material.restitution * approach < tolerance::HOP_M_S
+        let least = tolerance::hop_m_s(material.restitution, normal.z);
+        let slow = material.restitution * approach < least
             || matches!(surface, Surface::Cushion(_)) && approach < tolerance::STICKY_M_S;
         let law = if slow { Law { restitution: 0.0, ..material } } else { material };
         let support = self.support(index, at);
@@ -161,8 +162,9 @@ impl EventDriven {
         restitution: f64,
     ) {
         let (feature, normal) = (meeting.feature, meeting.normal);
-        // Hops on one surface are a series that ends by itself.
+        // Hops on one surface are a series that ends by itself, unless a spring presses.
         let hops = self.bodies[index].held.is_empty()
+            && self.bodies[index].ball.spring.is_none()
             && self.bodies[index].met.replace(feature) == Some(feature);
         let busy = !hops && self.is_busy(at, index);
         let radius = self.bodies[index].ball.radius_m;
@@ -196,7 +198,7 @@ impl EventDriven {
         } else if lands {
             self.begin_lasting_with(at, index, mover, DVec3::ZERO);
         } else {
-            let shift = self.way_out(at, index, normal, feature);
+            let shift = self.way_out(at, (index, DVec3::ZERO), normal, feature);
             self.go_on(at, index, mover, shift, 0.0);
         }
         self.predict(at, &[index]);
@@ -206,11 +208,17 @@ impl EventDriven {
         self.wake_neighbours(at, &[index]);
     }
 
-    /// Out of a surface into which a ball was pressed; along what carries it, so that no energy
-    /// appears.
-    fn way_out(&self, at: Seconds, index: usize, normal: DVec3, feature: Feature) -> DVec3 {
+    /// Out of a surface into which a ball, moved by a shift, was pressed; along what carries it, so
+    /// that no energy appears.
+    pub(super) fn way_out(
+        &self,
+        at: Seconds,
+        (index, shift): (usize, DVec3),
+        normal: DVec3,
+        feature: Feature,
+    ) -> DVec3 {
         let body = &self.bodies[index];
-        let centre = body.segment.position_at(at);
+        let centre = body.segment.position_at(at) + shift;
         let distance = match feature {
             Feature::Plane(plane) => {
                 (centre - self.terrain.planes[plane as usize].point).dot(normal)
@@ -229,7 +237,7 @@ impl EventDriven {
         let depth = body.ball.radius_m - distance;
         let level = normal.with_z(0.0);
         let square = level.length_squared();
-        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || depth > 2.0 * tolerance::PRESS_M {
+        if depth <= tolerance::PUSH_OUT_M || square < 0.25 {
             return DVec3::ZERO;
         }
         level * (depth / square)
@@ -242,9 +250,8 @@ impl EventDriven {
             body.busy = (at, 0);
         }
         body.busy.1 += 1;
-        body.busy.1 > tolerance::BUSY_CONTACTS
-            && body.ball.flags.gravity
-            && self.parameters.gravity_m_s2 > 0.0
+        let weighs = body.ball.flags.gravity && self.parameters.gravity_m_s2 > 0.0;
+        body.busy.1 > tolerance::BUSY_CONTACTS && (weighs || body.ball.spring.is_some())
     }
 
     /// Two balls meet.
@@ -257,6 +264,9 @@ impl EventDriven {
         let (a, b) = (one.min(two), one.max(two));
         self.check_finite(at, a)?;
         self.check_finite(at, b)?;
+        if self.is_other_look(at, a, b) {
+            return self.look_again(at, [a, b]);
+        }
         // Pair by pair, as other programs do: the others wait their turn.
         let members = match self.parameters.multi_contact {
             MultiContact::Pairwise => Changed::from_slice(&[a, b]),
@@ -297,11 +307,11 @@ impl EventDriven {
         }
         let point = self.bodies[a].segment.position_at(at) - normal * self.bodies[a].ball.radius_m;
         self.tell_collision(at, a, b, point, approach);
-        let shifts = self.part(at, a, b, normal);
+        let shifts = self.part(at, (a, DVec3::ZERO), (b, DVec3::ZERO), normal);
         let busy = self.is_busy(at, a) | self.is_busy(at, b);
         for (index, mover, shift) in [(a, &p, shifts.0), (b, &q, shifts.1)] {
             if busy && self.pressed(at, index) {
-                self.begin_lasting_with(at, index, mover, DVec3::ZERO);
+                self.begin_lasting_with(at, index, mover, shift);
             } else {
                 self.go_on(at, index, mover, shift, 0.0);
             }
@@ -342,28 +352,23 @@ impl EventDriven {
         }
     }
 
-    /// How two balls that were pressed together part, each by its share, on the level so that no
-    /// energy appears; deeper than a press is none.
-    pub(super) fn part(&self, at: Seconds, a: usize, b: usize, normal: DVec3) -> (DVec3, DVec3) {
-        self.laid_apart(at, a, b, normal, 2.0 * tolerance::PRESS_M)
-    }
-
-    /// The same for overlaps up to `deepest_m`.
-    pub(super) fn laid_apart(
+    /// How two balls, each moved by a shift, part that were pressed together: each by its share, on
+    /// the level so that no energy appears.
+    pub(super) fn part(
         &self,
         at: Seconds,
-        a: usize,
-        b: usize,
+        (a, from_a): (usize, DVec3),
+        (b, from_b): (usize, DVec3),
         normal: DVec3,
-        deepest_m: f64,
     ) -> (DVec3, DVec3) {
         let (one, two) = (&self.bodies[a], &self.bodies[b]);
-        let distance = one.segment.position_at(at).distance(two.segment.position_at(at));
+        let there = two.segment.position_at(at) + from_b;
+        let distance = (one.segment.position_at(at) + from_a).distance(there);
         let depth = one.ball.radius_m + two.ball.radius_m - distance;
         let level = normal.with_z(0.0);
         let square = level.length_squared();
         let (p, q) = (one.mover(at).inverse_mass, two.mover(at).inverse_mass);
-        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || depth > deepest_m || p + q == 0.0 {
+        if depth <= tolerance::PUSH_OUT_M || square < 0.25 || p + q == 0.0 {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let out = level * (depth / square / (p + q));

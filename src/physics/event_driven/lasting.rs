@@ -1,17 +1,20 @@
 //! Motion that has no closed form: a ball that turns about a rim, slides down a slope, is wedged
 //! between surfaces or leans on other balls.
 //!
-//! Only the balls concerned are stepped, all on one grid of [`tolerance::LASTING_STEP_S`]. A step
-//! takes every contact without restitution and with Coulomb's friction, solved jointly, and emits
-//! the quadratic through the velocities at both ends, so that detection, queue and impacts stay as
-//! they are. Normals turn within a step; what that adds or takes is put right by holding the energy
-//! of a ball that leans on nothing else to what friction leaves of it. Error: first order in the
-//! step for the moment of leaving a rim, second for its energy.
+//! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
+//! of its own, [`Pivot`]; all others go on one grid of [`tolerance::LASTING_STEP_S`]. There a step
+//! takes every contact without restitution and with Coulomb's friction, solved jointly. Either way
+//! it emits the quadratic through the velocities at both ends, so that detection, queue and impacts
+//! stay as they are. Normals turn within a step; what that adds or takes is put right by holding
+//! the energy of a ball that leans on nothing else to what friction leaves of it. Error: second
+//! order in the step for a single contact; else first, for the moment of leaving.
 
 use super::EventDriven;
 use super::motion::{self, Start};
+use super::pivot::{Base, Pivot};
 use super::predict::Changed;
 use super::segment::{Course, Segment};
+use super::swing;
 use super::terrain::Feature;
 use crate::physics::laws::Mover;
 use crate::physics::laws::cloth::{self, Carrying};
@@ -26,6 +29,9 @@ pub(super) const TOUCH_M: f64 = 1e-6;
 
 /// A contact that parts faster than this is none [m/s].
 const PARTS_M_S: f64 = 1e-2;
+
+/// How often the overlaps of a group are looked at in a step; it bounds the work.
+const PARTS_MAX: usize = 20;
 
 type Contacts = SmallVec<[(Feature, DVec3, f64); 4]>;
 
@@ -62,11 +68,6 @@ impl EventDriven {
         if self.begins.is_empty() {
             return;
         }
-        let step = tolerance::LASTING_STEP_S;
-        let mut next = (libm::floor(at / step) + 1.0) * step;
-        if next - at < 1e-9 {
-            next += step;
-        }
         let mut group = core::mem::take(&mut self.begins);
         group.sort_unstable();
         group.dedup();
@@ -78,10 +79,7 @@ impl EventDriven {
         for index in &group {
             self.cut_lasting(at, *index);
         }
-        self.pieces(at, &group, next);
-        if group.iter().any(|index| self.bodies[*index].segment.course == Course::Lasting) {
-            self.lasting_at = self.lasting_at.min(next);
-        }
+        self.pieces(at, &group);
         for index in group {
             if !changed.contains(&index) {
                 changed.push(index);
@@ -135,25 +133,24 @@ impl EventDriven {
         }
     }
 
-    /// The next step of all balls in lasting contact.
+    /// Balls in lasting contact.
+    fn lasting(&self) -> impl Iterator<Item = usize> {
+        self.bodies.iter().enumerate().filter_map(|(index, body)| {
+            (body.in_play() && body.segment.course == Course::Lasting).then_some(index)
+        })
+    }
+
+    /// The next step of the balls in lasting contact whose piece ends now.
     pub(super) fn step_lasting(&mut self, at: Seconds) -> Result<(), PhysicsError> {
         self.work.steps += 1;
-        let mut group: Changed = (0..self.bodies.len())
-            .filter(|index| {
-                let body = &self.bodies[*index];
-                body.in_play() && body.segment.course == Course::Lasting
-            })
-            .collect();
+        let mut group: Changed =
+            self.lasting().filter(|index| self.bodies[*index].segment.end_s <= at).collect();
         self.join_leaning(at, &mut group);
         for index in &group {
             self.check_finite(at, *index)?;
             self.cut_lasting(at, *index);
         }
-        let step = tolerance::LASTING_STEP_S;
-        let next = (libm::floor(at / step + 0.5) + 1.0) * step;
-        self.pieces(at, &group, next);
-        let lasts = |index: &usize| self.bodies[*index].segment.course == Course::Lasting;
-        self.lasting_at = if group.iter().any(lasts) { next } else { f64::INFINITY };
+        self.pieces(at, &group);
         self.predict(at, &group);
         for index in &group {
             if self.bodies[*index].in_play() {
@@ -163,9 +160,16 @@ impl EventDriven {
         Ok(())
     }
 
-    /// Emits the pieces of a group of balls up to `until`; balls that nothing unusual holds any
-    /// more go on by closed forms. Their segments must start at `at`.
-    fn pieces(&mut self, at: Seconds, group: &[usize], until: Seconds) {
+    /// Emits the next pieces of a group of balls; those that nothing unusual holds any more go on
+    /// by closed forms. Their segments must start at `at`.
+    fn pieces(&mut self, at: Seconds, group: &[usize]) {
+        self.emit_pieces(at, group);
+        let ends = self.lasting().map(|index| self.bodies[index].segment.end_s);
+        self.lasting_at = ends.fold(f64::INFINITY, f64::min);
+    }
+
+    fn emit_pieces(&mut self, at: Seconds, group: &[usize]) {
+        let until = after(at);
         let dt = until - at;
         let gravity = DVec3::NEG_Z * self.parameters.gravity_m_s2;
         let mut contacts: SmallVec<[Contacts; 4]> = SmallVec::new();
@@ -174,10 +178,18 @@ impl EventDriven {
             contacts.push(found);
         }
         let pairs = self.leaning_pairs(group);
-        for (a, b, normal) in &pairs {
-            let (one, two) = self.laid_apart(at, *a, *b, *normal, f64::INFINITY);
-            self.bodies[*a].segment.position += one;
-            self.bodies[*b].segment.position += two;
+        // Who parts from one may be pushed into the next.
+        for _ in 0..PARTS_MAX {
+            let mut clear = true;
+            for (a, b, normal) in &pairs {
+                let (one, two) = self.part(at, (*a, DVec3::ZERO), (*b, DVec3::ZERO), *normal);
+                clear &= one == DVec3::ZERO && two == DVec3::ZERO;
+                self.bodies[*a].segment.position += one;
+                self.bodies[*b].segment.position += two;
+            }
+            if clear {
+                break;
+            }
         }
 
         // Who is free of it?
@@ -185,7 +197,10 @@ impl EventDriven {
         let mut kept: SmallVec<[Contacts; 4]> = SmallVec::new();
         for (place, index) in group.iter().enumerate() {
             let leans = pairs.iter().any(|(a, b, _)| a == index || b == index);
-            if leans || !self.leave_lasting(*index, &contacts[place]) {
+            let done = !leans
+                && (self.leave_lasting(*index, &contacts[place])
+                    || self.single_contact(at, *index, &contacts[place]));
+            if !done {
                 stay.push(*index);
                 kept.push(contacts[place].clone());
             }
@@ -211,18 +226,8 @@ impl EventDriven {
             if body.ball.flags.gravity {
                 mover.velocity += gravity * dt;
             }
-            if let Some(own) = &body.ball.spring {
-                let s = &body.segment;
-                let (linear, angular) = spring::acceleration(
-                    &body.ball,
-                    own,
-                    s.position,
-                    s.velocity,
-                    s.orientation,
-                    s.angular_velocity,
-                );
-                mover.velocity += linear * dt;
-                mover.angular_velocity += angular * dt;
+            if let Some(spring) = &body.ball.spring {
+                swing::push(mover, &body.ball, spring, &body.segment, dt);
             }
         }
         let pushed = movers.clone();
@@ -304,9 +309,17 @@ impl EventDriven {
                 centre += normal * (radius - distance).max(0.0);
             }
         }
+        centre = self.beside_others(index, centre);
+        let body = &self.bodies[index];
         if let [(_, normal, _)] = contacts[..] {
-            // Along the surface, if gravity holds it there.
-            let kick = -self.parameters.gravity_m_s2 * normal.z * tolerance::LASTING_STEP_S;
+            // Along the surface, if gravity or a spring holds it there.
+            let s = &body.segment;
+            let pull = body.ball.spring.as_ref().map_or(DVec3::ZERO, |own| {
+                let (x, w) = (s.orientation, s.angular_velocity);
+                spring::acceleration(&body.ball, own, centre, velocity, x, w).0
+            });
+            let weight = DVec3::NEG_Z * self.parameters.gravity_m_s2;
+            let kick = (weight + pull).dot(normal) * tolerance::LASTING_STEP_S;
             let out = velocity.dot(normal);
             if out + kick < 0.0 {
                 let along = velocity - normal * out;
@@ -355,6 +368,29 @@ impl EventDriven {
         contacts
     }
 
+    /// Where a ball is laid that should be at `centre`, so that it is not laid into another: that
+    /// is a micrometre or two, and the surface waits. On one that it stands on it lies all the same.
+    fn beside_others(&self, index: usize, mut centre: DVec3) -> DVec3 {
+        let body = &self.bodies[index];
+        let (at, from) = (body.segment.start_s, body.segment.position);
+        for (other, path) in self.paths.iter().enumerate() {
+            let reach = path.radius_m + body.ball.radius_m;
+            let near = centre.distance(self.centre_at(other, at)) <= reach;
+            if other == index || !path.solid || !near {
+                continue;
+            }
+            let segment = &self.bodies[other].segment;
+            let there = segment.position_at(at);
+            let line = centre - there;
+            let carries = line.z * line.z > 0.75 * line.length_squared();
+            let into = from.distance(there).min(reach) - line.length();
+            if into > 0.0 && !(carries && segment.course == Course::Lasting) {
+                centre += line.normalize_or_zero() * into;
+            }
+        }
+        centre
+    }
+
     /// Pairs of a group that lean on each other.
     fn leaning_pairs(&self, group: &[usize]) -> SmallVec<[(usize, usize, DVec3); 8]> {
         let mut pairs = SmallVec::new();
@@ -395,8 +431,70 @@ impl EventDriven {
                 self.turn_into(index, next);
                 true
             }
+            [(feature @ Feature::Edge(_), normal, _)] => {
+                let body = &self.bodies[index];
+                let pivot = self.pivot(feature, normal);
+                let radius = body.ball.radius_m;
+                let leaves = pivot.press(segment.position, segment.velocity, radius) <= 0.0;
+                if leaves {
+                    let next = motion::free(&segment, &body.ball, &self.parameters);
+                    self.bodies[index].held.clear();
+                    self.turn_into(index, next);
+                }
+                leaves
+            }
             _ => false,
         }
+    }
+
+    fn pivot(&self, feature: Feature, normal: DVec3) -> Pivot {
+        let base = match feature {
+            Feature::Edge(edge) => {
+                let edge = &self.terrain.edges[edge as usize];
+                Base::Edge { from: edge.from, along: edge.along, length_m: edge.length_m }
+            }
+            _ => Base::Slope { normal },
+        };
+        let surface = self.terrain.surface(feature);
+        let law = Carrying {
+            friction: self.parameters.surface(surface).friction,
+            rolling_resistance: self.parameters.rolling_resistance,
+            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
+        };
+        Pivot { base, law, gravity_m_s2: self.parameters.gravity_m_s2 }
+    }
+
+    /// The next piece of a ball that touches a single edge or slope and nothing else.
+    fn single_contact(&mut self, at: Seconds, index: usize, contacts: &Contacts) -> bool {
+        let [(feature, normal, _)] = contacts[..] else { return false };
+        let body = &self.bodies[index];
+        let flags = &body.ball.flags;
+        let weighs = flags.gravity && flags.integrate;
+        if !weighs || body.ball.spring.is_some() || matches!(feature, Feature::Corner(_)) {
+            return false;
+        }
+        let from = body.segment;
+        let start = Mover::new(&body.ball, from.velocity, from.angular_velocity);
+        let pivot = self.pivot(feature, normal);
+        let Some(step) = pivot.step(from.position, &start) else { return false };
+        let height_j = body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
+        let body = &mut self.bodies[index];
+        body.target_j = start.kinetic_j() + height_j - step.loss_j;
+        body.held = SmallVec::from_slice(&[feature]);
+        body.quiet_since = at;
+        body.leans = false;
+        let rate = 1.0 / step.length_s;
+        body.turn_into(Segment {
+            end_s: at + step.length_s,
+            acceleration: (step.end.velocity - from.velocity) * rate,
+            angular_acceleration: (step.end.angular_velocity - from.angular_velocity) * rate,
+            normal,
+            spin_deceleration: 0.0,
+            course: Course::Lasting,
+            ..from
+        });
+        self.note_track(index);
+        true
     }
 
     /// What friction takes from each ball in a step [J]; applies rolling resistance.
@@ -446,4 +544,11 @@ impl EventDriven {
         }
         lost
     }
+}
+
+/// The next step after `at` of all that go on the grid [s].
+fn after(at: Seconds) -> Seconds {
+    let step = tolerance::LASTING_STEP_S;
+    let next = (libm::floor(at / step) + 1.0) * step;
+    if next - at < 1e-9 { next + step } else { next }
 }

@@ -4,7 +4,8 @@
 //! what runs along the line of fall. In the air: gravity. Whatever else carries a ball has no
 //! closed form and is left to [`super::lasting`].
 
-use super::segment::{Course, Segment, Swing};
+use super::segment::{Course, Segment};
+use super::swing;
 use crate::ball::Ball;
 use crate::physics::laws::cloth::slip_velocity;
 use crate::physics::{Parameters, tolerance};
@@ -27,63 +28,11 @@ pub struct Start {
 /// Longest segment with a force [s]: bounds the loss of digits in high powers of time.
 const LONGEST_S: Seconds = 100.0;
 
-/// Longest piece of a spring's swing for detection [s], and over its period.
-const SWING_S: (Seconds, f64) = (1e-3, 0.1);
-
-/// A spring that displaces a ball by less than this, with its speed, is at rest [m/s].
-const SWING_OVER_M_S: f64 = 1e-10;
-
-/// A ball on its spring, if it has one with a closed form.
-///
-/// x″ = −ω² (x − x_rest) − 2 ζ ω x′: weight only shifts the point of rest, by g/ω².
-fn springing(start: &Segment, ball: &Ball, parameters: &Parameters) -> Option<Segment> {
-    let spring = ball.spring.as_ref()?;
-    let (k, d, m) = (spring.stiffness_n_m, spring.damping_ns_m, ball.mass_kg);
-    if k <= 0.0 || !ball.flags.integrate {
-        return None;
-    }
-    let omega = (k / m).sqrt();
-    let weight = if ball.flags.gravity { parameters.gravity_m_s2 } else { 0.0 };
-    let inertia = ball.inertia_kg_m2();
-    let turns = spring.angular_stiffness_nm_rad;
-    let angular = (turns > 0.0).then(|| {
-        let omega = (turns / inertia).sqrt();
-        (omega, spring.angular_damping_nms_rad / (2.0 * omega * inertia))
-    });
-    let rest = spring.anchor_m - DVec3::Z * (weight / (omega * omega));
-    let swing = Swing {
-        rest,
-        linear: (omega, d / (2.0 * (k * m).sqrt())),
-        angular,
-        anchor: spring.anchor_orientation,
-    };
-    let still = (start.position - rest).length() * omega + start.velocity.length();
-    if still < SWING_OVER_M_S && start.angular_velocity == DVec3::ZERO && angular.is_none() {
-        return Some(Segment::still(start.start_s, rest, start.orientation));
-    }
-    // Only what may collide needs pieces.
-    let piece = SWING_S.0.min(SWING_S.1 / omega);
-    let end_s = if ball.flags.collide { start.start_s + piece } else { f64::INFINITY };
-    let mut segment = Segment {
-        end_s,
-        acceleration: DVec3::ZERO,
-        angular_acceleration: DVec3::ZERO,
-        normal: DVec3::Z,
-        spin_deceleration: 0.0,
-        course: Course::Springing,
-        swing: Some(swing),
-        ..*start
-    };
-    let end = segment.position_at(start.start_s + piece);
-    segment.acceleration =
-        (end - start.position - start.velocity * piece) * (2.0 / (piece * piece));
-    Some(segment)
-}
-
 /// A ball that nothing carries: it flies, or swings on its spring.
 pub fn free(start: &Segment, ball: &Ball, parameters: &Parameters) -> Segment {
     let start = Segment { swing: None, ..*start };
-    springing(&start, ball, parameters).unwrap_or_else(|| flying(&start, ball, parameters))
+    let flying = flying(&start, ball, parameters);
+    swing::on_spring(&flying, ball, parameters).unwrap_or(flying)
 }
 
 /// A ball that nothing carries.

@@ -42,7 +42,7 @@ impl Path {
     /// The way of a ball from now on.
     pub fn of(body: &Body) -> Self {
         let s = &body.segment;
-        let swings = s.swing.is_some();
+        let swings = s.swings();
         // On a spring it may come anywhere.
         let speed = if swings { f64::INFINITY } else { s.velocity.length() };
         Path {

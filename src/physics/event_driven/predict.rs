@@ -10,6 +10,7 @@ use super::closing::{self, Relative};
 use super::path::Path;
 use super::segment::Course;
 use super::sweep;
+use super::swing_meets;
 use crate::physics::tolerance;
 use crate::units::Seconds;
 use glam::DVec3;
@@ -78,9 +79,14 @@ impl EventDriven {
         if body.ball.flags.collide && !body.stands() {
             let until = segment.end_s.min(at + 1e4);
             let radius = body.ball.radius_m;
-            let met = sweep::first_meeting(terrain, segment, radius, at, until, &body.held, work);
-            if let Some(meeting) = met {
-                body.own = Own::Meets(meeting);
+            if segment.swings() {
+                body.own = swing_meets::own_event(terrain, segment, radius, at, work);
+            } else {
+                let met =
+                    sweep::first_meeting(terrain, segment, radius, at, until, &body.held, work);
+                if let Some(meeting) = met {
+                    body.own = Own::Meets(meeting);
+                }
             }
         }
         if let Some(head) = terrain.head_string_x() {
@@ -97,30 +103,41 @@ impl EventDriven {
         if body.stands() {
             return none;
         }
-        let segment = &body.segment;
-        let horizon = segment.end_s.min(body.own_s()) - after;
-        let (x, v) = (segment.position_at(after), segment.velocity_at(after));
-        let a = segment.acceleration;
-        let mut best = none;
-        // x − head rises through zero: its negative falls.
-        if body.behind
-            && let Some(time) =
-                closing::falling_quadratic((head - x.x).max(0.0), -v.x, -a.x, horizon)
-        {
-            best = (after + time, Report::HeadString);
-        }
         let radius = body.ball.radius_m;
-        let sinks = !self.terrain.pockets.is_empty()
-            && matches!(segment.course, Course::Flying | Course::Lasting)
-            && x.z > -radius + tolerance::PUSH_OUT_M;
-        self.work.pocket_tests += u64::from(sinks);
-        if sinks
-            && let Some(time) = closing::falling_quadratic(x.z + radius, v.z, a.z, horizon)
-            && after + time < best.0
-        {
-            best = (after + time, Report::Depth);
+        if body.segment.swings() && !swing_meets::is_told(&self.terrain, &body.segment) {
+            return none;
         }
-        best
+        let until = body.segment.end_s.min(body.own_s());
+        let (mut from, sinks) = (after, !self.terrain.pockets.is_empty());
+        loop {
+            let body = &self.bodies[index];
+            let piece = body.segment.stretch(from, until);
+            let horizon = piece.end_s - from;
+            let (x, v) = (piece.position_at(from), piece.velocity_at(from));
+            let a = piece.acceleration;
+            let mut best = none;
+            // x − head rises through zero: its negative falls.
+            if body.behind
+                && let Some(time) =
+                    closing::falling_quadratic((head - x.x).max(0.0), -v.x, -a.x, horizon)
+            {
+                best = (from + time, Report::HeadString);
+            }
+            let sinks = sinks
+                && matches!(body.segment.course, Course::Flying | Course::Lasting)
+                && x.z > -radius + tolerance::PUSH_OUT_M;
+            self.work.pocket_tests += u64::from(sinks);
+            if sinks
+                && let Some(time) = closing::falling_quadratic(x.z + radius, v.z, a.z, horizon)
+                && from + time < best.0
+            {
+                best = (from + time, Report::Depth);
+            }
+            if best.0.is_finite() || until <= piece.end_s {
+                return best;
+            }
+            from = piece.end_s;
+        }
     }
 
     fn predict_pairs(&mut self, at: Seconds, index: usize, wanted: impl Fn(usize) -> bool) {
@@ -136,6 +153,14 @@ impl EventDriven {
             }
             let known = self.pairs[index].0.max(self.pairs[other].0);
             let horizon = own.known_s.min(path.known_s).min(known) - at;
+            if own.swings || path.swings {
+                if own.moves || path.moves {
+                    self.work.pair_tests += 1;
+                    let time = self.swinging_pair(at, index, other, at + horizon);
+                    self.note_pair(index, other, time);
+                }
+                continue;
+            }
             let distance = own.radius_m + path.radius_m;
             // A rough look at what both can reach spares most of the work while they hop.
             let far = (distance + own.reach_m(at, horizon) + path.reach_m(at, horizon)) * ROUGH;
@@ -157,15 +182,20 @@ impl EventDriven {
                 continue;
             }
             self.work.pair_tests += 1;
-            let Some(time) = closing::spheres(&motion, distance, horizon) else { continue };
-            let time = at + time;
-            // The lower number breaks ties, so that the order of balls decides nothing else.
-            for (one, two) in [(index, other), (other, index)] {
-                let pair = &mut self.pairs[one];
-                if time < pair.0 || time == pair.0 && two < pair.1 {
-                    *pair = (time, two);
-                    self.next[one] = self.next[one].min(time);
-                }
+            let time = closing::spheres(&motion, distance, horizon).map(|time| at + time);
+            self.note_pair(index, other, time);
+        }
+    }
+
+    /// Two balls meet at `time`, if they do.
+    fn note_pair(&mut self, index: usize, other: usize, time: Option<Seconds>) {
+        let Some(time) = time else { return };
+        // The lower number breaks ties, so that the order of balls decides nothing else.
+        for (one, two) in [(index, other), (other, index)] {
+            let pair = &mut self.pairs[one];
+            if time < pair.0 || time == pair.0 && two < pair.1 {
+                *pair = (time, two);
+                self.next[one] = self.next[one].min(time);
             }
         }
     }

@@ -4,6 +4,7 @@
 //! producers differ. A ball keeps its own start time and is evaluated when somebody asks, so balls
 //! that nothing happens to cost nothing and gather no rounding.
 
+use super::swing::Swing;
 use crate::ball::{BallPlace, BallState, Motion};
 use crate::hash::StateHash;
 use crate::ids::BallId;
@@ -57,43 +58,9 @@ pub struct Segment {
     pub orientation: DQuat,
     /// Its law.
     pub course: Course,
-    /// The spring that it swings on; then the path is the spring's, exactly, and the acceleration
-    /// is that of the parabola through both ends, for detection.
+    /// The spring that it swings on; then the path is the spring's, exactly, and the accelerations
+    /// are those at the start.
     pub swing: Option<Swing>,
-}
-
-/// A ball on a spring and damper: harmonic motion about a point of rest.
-///
-/// The angular part is exact while the ball turns about one axis; else it holds for small angles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Swing {
-    /// Where the forces balance [m].
-    pub rest: DVec3,
-    /// √(k/m) [rad/s], and the damping ratio d/(2 √(k m)).
-    pub linear: (f64, f64),
-    /// The same of the angular spring; none if there is none.
-    pub angular: Option<(f64, f64)>,
-    /// The orientation that it pulls to.
-    pub anchor: DQuat,
-}
-
-impl Swing {
-    /// Offset and velocity after `t`, from those at its start.
-    fn linear_after(&self, offset: DVec3, velocity: DVec3, t: Seconds) -> (DVec3, DVec3) {
-        let m = spring::propagator(self.linear.0, self.linear.1, t);
-        (offset * m[0][0] + velocity * m[0][1], offset * m[1][0] + velocity * m[1][1])
-    }
-
-    fn angular_after(&self, orientation: DQuat, spin: DVec3, t: Seconds) -> (DVec3, DVec3) {
-        let angle = spring::rotation_vector(orientation * self.anchor.inverse());
-        match self.angular {
-            Some((omega, ratio)) => {
-                let m = spring::propagator(omega, ratio, t);
-                (angle * m[0][0] + spin * m[0][1], angle * m[1][0] + spin * m[1][1])
-            }
-            None => (angle + spin * t, spin),
-        }
-    }
 }
 
 impl Segment {
@@ -121,7 +88,7 @@ impl Segment {
         let t = at - self.start_s;
         match &self.swing {
             None => self.position + (self.velocity + self.acceleration * (0.5 * t)) * t,
-            Some(swing) => swing.rest + self.swung(swing, t).0,
+            Some(swing) => swing.way_after(self, t).0,
         }
     }
 
@@ -131,13 +98,13 @@ impl Segment {
         let t = at - self.start_s;
         match &self.swing {
             None => self.velocity + self.acceleration * t,
-            Some(swing) => self.swung(swing, t).1,
+            Some(swing) => swing.way_after(self, t).1,
         }
     }
 
-    #[cold]
-    fn swung(&self, swing: &Swing, t: Seconds) -> (DVec3, DVec3) {
-        swing.linear_after(self.position - swing.rest, self.velocity, t)
+    /// Whether the path is that of a spring, and no parabola.
+    pub fn swings(&self) -> bool {
+        self.swing.is_some_and(|swing| swing.linear.is_some())
     }
 
     /// Spin about the normal after `t` of the segment [rad/s], and the angle turned by it [rad].
@@ -159,7 +126,7 @@ impl Segment {
     pub fn angular_velocity_at(&self, at: Seconds) -> DVec3 {
         let t = at - self.start_s;
         if let Some(swing) = &self.swing {
-            return swing.angular_after(self.orientation, self.angular_velocity, t).1;
+            return swing.turn_after(self, t).1;
         }
         let base = self.angular_velocity + self.angular_acceleration * t;
         if self.spin_deceleration == 0.0 {
@@ -179,7 +146,7 @@ impl Segment {
             return self.orientation;
         }
         if let Some(swing) = &self.swing {
-            let angle = swing.angular_after(self.orientation, self.angular_velocity, t).0;
+            let angle = swing.turn_after(self, t).0;
             return spring::turned(swing.anchor, angle, 1.0);
         }
         let (alpha, omega) = (self.angular_acceleration, self.angular_velocity);

@@ -6,7 +6,7 @@
 
 use super::closing::{self, Relative};
 use super::segment::{Course, Segment};
-use super::terrain::{BESIDE_M, Block, Corner, Edge, Feature, Group, Terrain};
+use super::terrain::{BESIDE_M, Block, Corner, Edge, Feature, Group, InReach, Plan, Terrain};
 use crate::physics::{Work, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
@@ -61,17 +61,19 @@ pub fn first_meeting(
     if terrain.has_mesh() {
         let until = first.map_or(until, |meeting| meeting.at);
         let walk = Walk { terrain, segment, radius_m, held, carrier: carrier(segment, held) };
-        if let Some(meeting) = walk.run(from, until, work) {
+        if let Some(meeting) = walk.first(from, until, work) {
             first = Some(meeting);
         }
     }
     first
 }
 
-/// The patch that a ball slides or rolls on.
+/// The patch that a ball slides or rolls on; on a slope as well.
 fn carrier(segment: &Segment, held: &[Feature]) -> Option<u32> {
     match (segment.course, held) {
-        (Course::Sliding | Course::Rolling, [Feature::Patch(patch)]) => Some(*patch),
+        (Course::Sliding | Course::Rolling | Course::Lasting, [Feature::Patch(patch)]) => {
+            Some(*patch)
+        }
         _ => None,
     }
 }
@@ -121,16 +123,75 @@ impl Span {
     }
 }
 
+/// Where a walk over the plan ended.
+enum Reached {
+    Meeting(Meeting),
+    End,
+    /// The border of the plan, and when.
+    Border(Seconds),
+}
+
 impl Walk<'_> {
+    fn first(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
+        let mut from = from;
+        if let Some((plan, valid)) = self.plan(from) {
+            match self.over_plan(plan, from, until.min(valid), work) {
+                Reached::Meeting(meeting) => return Some(meeting),
+                Reached::End if until <= valid => return None,
+                Reached::End => from = valid,
+                Reached::Border(at) => from = at,
+            }
+        }
+        self.run(from, until, work)
+    }
+
+    /// The plan of the bed that the ball may look into, and until when.
+    fn plan(&self, from: Seconds) -> Option<(&Plan, Seconds)> {
+        let plans = self.terrain.plans(self.radius_m)?;
+        let (z, v) = (self.segment.position_at(from).z, self.segment.velocity_at(from).z);
+        let (a, above) = (self.segment.acceleration.z, z - plans.height_m);
+        if self.carrier.map(Feature::Patch) == Some(self.terrain.main_patch()) {
+            let level = v == 0.0 && a == 0.0 && above.abs() <= tolerance::SUPPORT_M;
+            return level.then_some((&plans.carried, f64::INFINITY));
+        }
+        let low = -tolerance::SUPPORT_M <= above
+            && a < 0.0
+            && z + 0.5 * v.max(0.0) * v.max(0.0) / -a <= plans.top_m;
+        if !low || self.segment.course != Course::Flying {
+            return None;
+        }
+        let sinks = closing::falling_quadratic(above + tolerance::SUPPORT_M, v, a, f64::INFINITY)?;
+        Some((&plans.low, from + sinks))
+    }
+
+    fn over_plan(&self, plan: &Plan, from: Seconds, until: Seconds, work: &mut Work) -> Reached {
+        let mut now = from;
+        let mut zone = plan.zone_at(self.segment.position_at(now).truncate());
+        while let Some(here) = zone {
+            let (min, max) = (here.min.extend(f64::NEG_INFINITY), here.max.extend(f64::INFINITY));
+            let (exit, next) = self.exit(now, until, (min, max));
+            let lists = plan.in_zone(here);
+            if !lists.is_empty()
+                && let Some(meeting) = self.search(&lists, now, exit, work)
+            {
+                return Reached::Meeting(meeting);
+            }
+            let Some((axis, up)) = next else { return Reached::End };
+            now = exit;
+            zone = plan.beyond(here, self.segment.position_at(now).truncate(), axis, up);
+        }
+        Reached::Border(now)
+    }
+
     fn run(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
         let on_main = self.held.len() == 1 && self.held[0] == self.terrain.main_patch();
         let mut now = from;
         let mut cell = self.terrain.place_of(self.segment.position_at(now));
         loop {
             let block = self.terrain.block_at(cell, on_main);
-            let (exit, next) = self.exit(now, until, &block);
-            if block.lists()
-                && let Some(meeting) = self.search(&block, now, exit, work)
+            let (exit, next) = self.exit(now, until, self.terrain.corners_of(&block));
+            if let Some(lists) = self.terrain.in_block(&block)
+                && let Some(meeting) = self.search(&lists, now, exit, work)
             {
                 return Some(meeting);
             }
@@ -157,14 +218,13 @@ impl Walk<'_> {
         sign * v < 0.0 || sign * a < 0.0
     }
 
-    /// When the path leaves a block of cells, and through which side; none if it ends inside.
+    /// When the path leaves a box, and through which side; none if it ends inside.
     fn exit(
         &self,
         now: Seconds,
         until: Seconds,
-        block: &Block,
+        (min, max): (DVec3, DVec3),
     ) -> (Seconds, Option<(usize, bool)>) {
-        let (min, max) = self.terrain.corners_of(block);
         let position = self.segment.position_at(now);
         let velocity = self.segment.velocity_at(now);
         let acceleration = self.segment.acceleration;
@@ -186,10 +246,10 @@ impl Walk<'_> {
         best
     }
 
-    /// The first meeting inside a cell.
+    /// The first meeting with what is in reach between two times.
     fn search(
         &self,
-        block: &Block,
+        lists: &InReach,
         now: Seconds,
         exit: Seconds,
         work: &mut Work,
@@ -206,18 +266,18 @@ impl Walk<'_> {
             slice.length = time;
             best = Some(Meeting { at: now + time, feature, normal, leaves });
         };
-        for group in self.terrain.groups_in(block) {
+        for group in lists.groups {
             let feature = Feature::Patch(group.patch);
             let patch = &self.terrain.patches[group.patch as usize];
             let height = patch.normal.dot(span.middle) - patch.offset;
             if height.abs() <= span.reach_m
                 && !self.is_held(feature)
-                && let Some((time, normal)) = self.patch(group, &slice, work)
+                && let Some((time, normal)) = self.patch(lists, group, &slice, work)
             {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.edges_in(block) {
+        for number in lists.edges {
             let edge = &self.terrain.edges[*number as usize];
             if !span.may_meet_edge(edge) {
                 continue;
@@ -235,7 +295,7 @@ impl Walk<'_> {
                 note(&mut slice, time, feature, normal, false);
             }
         }
-        for number in self.terrain.corners_in(block) {
+        for number in lists.corners {
             let corner = &self.terrain.corners[*number as usize];
             let feature = Feature::Corner(*number);
             if !span.may_meet_corner(corner) || self.is_held(feature) {
@@ -270,7 +330,13 @@ impl Walk<'_> {
         self.held.iter().any(|held| self.terrain.belongs(feature, *held))
     }
 
-    fn patch(&self, group: &Group, slice: &Slice, work: &mut Work) -> Option<(Seconds, DVec3)> {
+    fn patch(
+        &self,
+        lists: &InReach,
+        group: &Group,
+        slice: &Slice,
+        work: &mut Work,
+    ) -> Option<(Seconds, DVec3)> {
         let patch = &self.terrain.patches[group.patch as usize];
         let mut h = patch.normal.dot(slice.position) - patch.offset;
         let mut v = patch.normal.dot(slice.velocity);
@@ -289,7 +355,7 @@ impl Walk<'_> {
         }
         work.face_tests += 1;
         let time = closing::height(h - self.radius_m, v, a, slice.length)?;
-        self.terrain.holds(group, slice.at(time)).then_some((time, normal))
+        self.terrain.holds(lists, group, slice.at(time)).then_some((time, normal))
     }
 
     fn edge(&self, number: u32, slice: &Slice, work: &mut Work) -> Option<(Seconds, DVec3)> {

@@ -8,13 +8,16 @@
 
 mod grid;
 mod patches;
+mod plan;
 
 pub use grid::BESIDE_M;
+pub use plan::{Plan, Plans};
 
 use crate::mesh::Surface;
 use crate::physics::tolerance;
 use crate::table::{Bed, Plane, Pocket, Table};
 use glam::{DVec3, IVec3};
+use plan::Lists;
 use smallvec::SmallVec;
 
 /// Triangles of one patch overlap by this, so that no foot falls between them [m].
@@ -81,7 +84,14 @@ pub struct Group {
     /// The patch.
     pub patch: u32,
     first: u32,
+    /// How many; 0 if the foot is inside of the patch wherever in the cell the centre is.
     count: u32,
+}
+
+impl Group {
+    fn is_whole(&self) -> bool {
+        self.count == 0
+    }
 }
 
 /// A side of a triangle, as the line that a foot inside of the triangle is not beyond.
@@ -114,29 +124,47 @@ fn sides_of(triangle: &[DVec3; 3]) -> [Side; 3] {
 /// A block of cells.
 #[derive(Debug, Clone, Copy)]
 pub struct Block {
-    /// The cell that it is; none if nothing is in reach.
-    node: Option<usize>,
+    /// What is in reach; none if nothing is.
+    pub listed: Option<Listed>,
     /// Its first and last smallest cell along each axis.
     pub low: IVec3,
     /// See `low`.
     pub high: IVec3,
 }
 
-impl Block {
-    /// Whether something may be in reach.
-    pub fn lists(&self) -> bool {
-        self.node.is_some()
+/// Ranges of the lists of parts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Listed {
+    groups: (u32, u32),
+    edges: (u32, u32),
+    corners: (u32, u32),
+}
+
+/// What is in reach.
+#[derive(Debug, Clone, Copy)]
+pub struct InReach<'a> {
+    /// The faces of each patch.
+    pub groups: &'a [Group],
+    /// Numbers of edges.
+    pub edges: &'a [u32],
+    /// Numbers of corners.
+    pub corners: &'a [u32],
+    triangles: &'a [u32],
+}
+
+impl InReach<'_> {
+    /// Whether that is nothing.
+    pub fn is_empty(&self) -> bool {
+        self.groups.is_empty() && self.edges.is_empty() && self.corners.is_empty()
     }
 }
 
-/// A cell: ranges of the lists, or eight smaller ones.
+/// A cell: what it lists, or eight smaller ones.
 #[derive(Debug, Clone, Copy, Default)]
 struct Node {
     /// The first of its parts; 0 if it is not cut.
     children: u32,
-    groups: (u32, u32),
-    edges: (u32, u32),
-    corners: (u32, u32),
+    listed: Listed,
 }
 
 /// The fixed part of a world; shared by all clones of a simulation.
@@ -176,10 +204,9 @@ pub struct Terrain {
     count: IVec3,
     /// Cells: first the coarse ones in order, then their parts.
     nodes: Vec<Node>,
-    groups: Vec<Group>,
-    listed_triangles: Vec<u32>,
-    listed_edges: Vec<u32>,
-    listed_corners: Vec<u32>,
+    lists: Lists,
+    /// The main patch seen from above, if it is level.
+    plans: Option<Plans>,
     /// Coarse cells around each, itself included, in which nothing is in reach; 0 where something
     /// is.
     empty: Vec<u8>,
@@ -260,30 +287,29 @@ impl Terrain {
         Feature::Patch(self.main)
     }
 
-    /// The faces of each patch that a ball in a block can reach.
-    pub fn groups_in(&self, block: &Block) -> &[Group] {
-        let range = block.node.map_or((0, 0), |node| self.nodes[node].groups);
-        &self.groups[range.0 as usize..range.1 as usize]
+    /// What a ball in a block can reach, if there is anything.
+    pub fn in_block(&self, block: &Block) -> Option<InReach<'_>> {
+        block.listed.map(|listed| self.lists.of(&listed))
     }
 
-    /// The edges that a ball in a block can reach.
-    pub fn edges_in(&self, block: &Block) -> &[u32] {
-        let range = block.node.map_or((0, 0), |node| self.nodes[node].edges);
-        &self.listed_edges[range.0 as usize..range.1 as usize]
+    /// The plans of the main patch, for balls of that radius.
+    pub fn plans(&self, radius_m: f64) -> Option<&Plans> {
+        self.plans.as_ref().filter(|_| radius_m == self.radius_m)
     }
 
-    /// The corners that a ball in a block can reach.
-    pub fn corners_in(&self, block: &Block) -> &[u32] {
-        let range = block.node.map_or((0, 0), |node| self.nodes[node].corners);
-        &self.listed_corners[range.0 as usize..range.1 as usize]
+    /// Leaves only the grid.
+    #[cfg(test)]
+    pub fn forget_plans(&mut self) {
+        self.plans = None;
     }
 
     /// Whether the foot of the perpendicular from `point` lies in one of the faces of a group.
-    pub fn holds(&self, group: &Group, point: DVec3) -> bool {
+    pub fn holds(&self, lists: &InReach, group: &Group, point: DVec3) -> bool {
         let range = group.first as usize..(group.first + group.count) as usize;
-        self.listed_triangles[range].iter().any(|triangle| {
-            self.sides[*triangle as usize].iter().all(|side| side.inside_m(point) >= -SEAM_M)
-        })
+        group.is_whole()
+            || lists.triangles[range].iter().any(|triangle| {
+                self.sides[*triangle as usize].iter().all(|side| side.inside_m(point) >= -SEAM_M)
+            })
     }
 
     /// Everything no farther than `reach_m` from `centre`: feature, unit normal towards the centre,
@@ -316,16 +342,18 @@ impl Terrain {
         if !self.has_mesh() {
             return found;
         }
-        let block = self.block_at(self.place_of(centre), but_main);
-        for group in self.groups_in(&block) {
+        let zone = if but_main { self.zone_around(centre) } else { None };
+        let around = || self.in_block(&self.block_at(self.place_of(centre), but_main));
+        let Some(lists) = zone.or_else(around) else { return found };
+        for group in lists.groups {
             let patch = &self.patches[group.patch as usize];
             let height = patch.normal.dot(centre) - patch.offset;
-            if height.abs() <= reach_m && self.holds(group, centre) {
+            if height.abs() <= reach_m && self.holds(&lists, group, centre) {
                 let normal = if height < 0.0 { -patch.normal } else { patch.normal };
                 note(Feature::Patch(group.patch), normal, height.abs());
             }
         }
-        for number in self.edges_in(&block) {
+        for number in lists.edges {
             let edge = &self.edges[*number as usize];
             let along = (centre - edge.from).dot(edge.along);
             if !edge.flat && 0.0 <= along && along <= edge.length_m {
@@ -334,11 +362,19 @@ impl Terrain {
                 note(Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
             }
         }
-        for number in self.corners_in(&block) {
+        for number in lists.corners {
             let offset = centre - self.corners[*number as usize].point;
             note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
         }
         found
+    }
+
+    /// What a ball that the main patch carries has in reach, if it is as large as the largest.
+    fn zone_around(&self, centre: DVec3) -> Option<InReach<'_>> {
+        let plans = self.plans.as_ref()?;
+        let carried = (centre.z - plans.height_m).abs() <= tolerance::SUPPORT_M;
+        let zone = plans.carried.zone_at(centre.truncate()).filter(|_| carried)?;
+        Some(plans.carried.in_zone(zone))
     }
 
     /// Whether a contact with `feature` belongs to a lasting contact with `held`.
@@ -346,28 +382,44 @@ impl Terrain {
         if feature == held {
             return true;
         }
-        let patches = |feature: Feature| -> SmallVec<[u32; 6]> {
-            match feature {
-                Feature::Plane(_) => SmallVec::new(),
-                Feature::Patch(patch) => SmallVec::from_slice(&[patch]),
-                Feature::Edge(edge) => {
-                    self.edges[edge as usize].sides.iter().map(|(patch, _)| *patch).collect()
-                }
-                Feature::Corner(corner) => self.corners[corner as usize].patches.clone(),
-            }
+        let of_edge = |edge: u32, patch: u32| {
+            self.edges[edge as usize].sides.iter().any(|(side, _)| *side == patch)
         };
+        let of_corner =
+            |corner: u32, patch: u32| self.corners[corner as usize].patches.contains(&patch);
         match (feature, held) {
-            // Neighbouring edges and corners are features of their own.
-            (Feature::Edge(_), Feature::Edge(_)) => false,
+            (Feature::Edge(edge), Feature::Patch(patch))
+            | (Feature::Patch(patch), Feature::Edge(edge)) => of_edge(edge, patch),
+            (Feature::Corner(corner), Feature::Patch(patch))
+            | (Feature::Patch(patch), Feature::Corner(corner)) => of_corner(corner, patch),
+            (Feature::Edge(edge), Feature::Corner(corner)) => {
+                self.corners[corner as usize].patches.iter().any(|patch| of_edge(edge, *patch))
+            }
+            (Feature::Corner(a), Feature::Corner(b)) => {
+                self.corners[a as usize].patches.iter().any(|patch| of_corner(b, *patch))
+            }
             (Feature::Corner(corner), Feature::Edge(edge)) => {
                 let (point, edge) =
                     (self.corners[corner as usize].point, &self.edges[edge as usize]);
                 point == edge.from || point.distance(edge.from + edge.along * edge.length_m) < 1e-12
             }
-            _ => {
-                let of_held = patches(held);
-                patches(feature).iter().any(|patch| of_held.contains(patch))
-            }
+            // Neighbouring edges are features of their own.
+            (Feature::Edge(_), Feature::Edge(_))
+            | (Feature::Patch(_), Feature::Patch(_))
+            | (Feature::Plane(_), _)
+            | (_, Feature::Plane(_)) => false,
+        }
+    }
+}
+
+impl Lists {
+    fn of(&self, listed: &Listed) -> InReach<'_> {
+        let range = |(from, to): (u32, u32)| from as usize..to as usize;
+        InReach {
+            groups: &self.groups[range(listed.groups)],
+            edges: &self.edges[range(listed.edges)],
+            corners: &self.corners[range(listed.corners)],
+            triangles: &self.triangles,
         }
     }
 }

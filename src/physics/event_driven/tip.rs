@@ -6,6 +6,7 @@
 use super::EventDriven;
 use super::closing::{self, Relative};
 use super::segment::Segment;
+use super::swing_meets::STRETCHES;
 use crate::cue::{CuePath, CuePose};
 use crate::events::{FactKind, TouchedBy};
 use crate::ids::BallId;
@@ -113,6 +114,40 @@ impl Tip {
                 .map(|time| start + time)
         })
     }
+
+    /// The same for a ball on a spring; and when to look again, if its swing was not followed as
+    /// far as the tip's way is known.
+    fn meets_swinging(
+        &self,
+        ball: &Segment,
+        radius_m: f64,
+        from: Seconds,
+    ) -> (Option<Seconds>, Seconds) {
+        let nothing = (None, f64::INFINITY);
+        let Some(swing) = &ball.swing else { return nothing };
+        let reach = swing.reach_all_m(ball) + radius_m + self.cue.tip_radius_m;
+        let near = |stretch: &Stretch| {
+            let lasts = (stretch.end - stretch.start).min(AHEAD_S);
+            let fastest = stretch.velocity.length() + stretch.acceleration.length() * lasts;
+            stretch.position.distance(swing.rest) <= reach + fastest * lasts
+        };
+        if !self.stretches.iter().any(near) {
+            return nothing;
+        }
+        let until = ball.end_s.min(self.until);
+        let mut from = from;
+        for _ in 0..STRETCHES {
+            let piece = ball.stretch(from, until);
+            if let Some(time) = self.first_contact(&piece, radius_m, from) {
+                return (Some(time), f64::INFINITY);
+            }
+            from = piece.end_s;
+            if until <= from {
+                return nothing;
+            }
+        }
+        (None, from)
+    }
 }
 
 impl EventDriven {
@@ -151,7 +186,13 @@ impl EventDriven {
                 continue;
             }
             tests += 1;
-            let met = tip.first_contact(&body.segment, body.ball.radius_m, at);
+            let (segment, radius) = (&body.segment, body.ball.radius_m);
+            let (met, again) = if segment.swings() {
+                tip.meets_swinging(segment, radius, at)
+            } else {
+                (tip.first_contact(segment, radius, at), f64::INFINITY)
+            };
+            tip.until = tip.until.min(again);
             if let Some(time) = met.filter(|time| *time < tip.meets.0) {
                 tip.meets = (time, index);
             }

@@ -81,7 +81,7 @@ impl FixedStep {
     /// that of the middle of the step: positions that it leads to lie on the parabola through them.
     fn late(&self, index: usize, normal: DVec3, tau: Seconds) -> DVec3 {
         let pressed = self.bodies[index].kick.dot(normal).min(0.0);
-        let of_velocity = match self.integrator {
+        let of_velocity = match self.settings.integrator {
             Integrator::EulerCromer => 0.5,
             Integrator::Verlet | Integrator::Rk4 => 1.0,
         };
@@ -257,7 +257,7 @@ impl FixedStep {
         other: usize,
     ) -> SmallVec<[(usize, usize, DVec3); 32]> {
         let mut pairs = SmallVec::new();
-        let at = if self.back_dating { contact.tau } else { self.h };
+        let at = if self.settings.contact_back_dating { contact.tau } else { self.h };
         for (place, a) in members.iter().enumerate() {
             for b in &members[place + 1..] {
                 let own = *a == contact.ball && *b == other;

@@ -87,7 +87,7 @@ impl FixedStep {
         if !self.bodies[index].solid() {
             return;
         }
-        if self.profile == Profile::Paper2009 {
+        if self.settings.profile == Profile::Paper2009 {
             // The paper puts balls back by p′ = d p alone; that was done with the contact.
             self.look_around(index);
             return;
@@ -111,7 +111,7 @@ impl FixedStep {
         let body = &mut self.bodies[index];
         let (position, radius) = (body.position, body.ball.radius_m);
         // Under the paper's laws a lying ball hops by what gravity gives in a step or two.
-        let carried = match self.profile {
+        let carried = match self.settings.profile {
             Profile::Standard => tolerance::SUPPORT_M,
             Profile::Paper2009 => 4.0 * self.parameters.gravity_m_s2 * self.h * self.h,
         };
@@ -182,7 +182,7 @@ impl FixedStep {
     /// Pairs that have touched: forgets those that parted, moves overlapping ones apart, each ball
     /// by its share of the other's mass.
     fn part_pairs(&mut self) {
-        let standard = self.profile == Profile::Standard;
+        let standard = self.settings.profile == Profile::Standard;
         let mut touching = std::mem::take(&mut self.touching);
         touching.retain(|(a, b)| {
             let (one, two) = (&self.bodies[*a], &self.bodies[*b]);

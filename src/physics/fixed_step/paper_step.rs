@@ -97,7 +97,7 @@ impl FixedStep {
         let touched =
             roots::straight(one.path.at(from) - two.path.at(from), v - w, reach, h - from, 0.0)
                 .map_or(from, |time| from + time);
-        let at = if self.back_dating { touched } else { h };
+        let at = if self.settings.contact_back_dating { touched } else { h };
         let normal = (one.path.at(at) - two.path.at(at)).normalize_or(DVec3::X);
         let (p, q) = (one.mover(), two.mover());
         let slip = p.surface_velocity(normal) - q.surface_velocity(-normal);
@@ -154,7 +154,7 @@ impl FixedStep {
         mover: &Mover,
         restitution: f64,
     ) {
-        let (h, back_dating) = (self.h, self.back_dating);
+        let (h, back_dating) = (self.h, self.settings.contact_back_dating);
         let body = &mut self.bodies[index];
         let old = body.mover();
         let mut path = body.path;

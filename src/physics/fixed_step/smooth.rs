@@ -28,7 +28,7 @@ impl FixedStep {
     }
 
     fn smooth_ball(&mut self, index: usize) {
-        self.work.force_evaluations += match self.integrator {
+        self.work.force_evaluations += match self.settings.integrator {
             Integrator::EulerCromer => 1,
             Integrator::Verlet => 2,
             Integrator::Rk4 => 4,
@@ -58,7 +58,7 @@ impl FixedStep {
         // thing: there a lying ball falls into the bed and is thrown back, step by step.
         let mut mover =
             Mover { velocity: free.velocity, angular_velocity: free.angular_velocity, ..before };
-        let carriers = if self.profile == Profile::Standard {
+        let carriers = if self.settings.profile == Profile::Standard {
             self.carriers(body, free.velocity, force_kick)
         } else {
             SmallVec::new()
@@ -78,7 +78,7 @@ impl FixedStep {
         // Euler-Cromer by all of it.
         let change = mover.velocity - free.velocity;
         let rests = before.velocity == DVec3::ZERO && mover.velocity == DVec3::ZERO;
-        let mut path_velocity = match self.integrator {
+        let mut path_velocity = match self.settings.integrator {
             _ if rests => DVec3::ZERO,
             Integrator::EulerCromer => mover.velocity,
             Integrator::Verlet | Integrator::Rk4 => free.displacement / h + 0.5 * change,
@@ -179,7 +179,7 @@ impl FixedStep {
             self.acceleration(body, dt, position, velocity, spin)
         };
         let (x0, _, _) = start;
-        match self.integrator {
+        match self.settings.integrator {
             Integrator::EulerCromer => {
                 let (a, b) = force(0.0, x0, v, w);
                 let velocity = v + a * h;

@@ -118,7 +118,7 @@ impl FixedStep {
     /// balls that lie beside the bed: they have left the table.
     pub(super) fn watch_rest(&mut self) {
         // The paper's lying balls fall and rise by what gravity gives in a step; that is no motion.
-        let hop = match self.profile {
+        let hop = match self.settings.profile {
             Profile::Standard => 0.0,
             Profile::Paper2009 => 4.0 * self.parameters.gravity_m_s2 * self.h,
         };

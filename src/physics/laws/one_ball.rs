@@ -18,6 +18,8 @@ use smallvec::SmallVec;
 
 /// Most surfaces at once.
 pub const SURFACES_MAX: usize = 3;
+/// Sweeps before the first of Newton's iterations; each costs a tenth of one.
+const SWEEPS: usize = 3;
 /// Iterations before giving up.
 const ITERATIONS: usize = 12;
 /// Relative change of impulses that ends the iteration. It converges quadratically, so what is left
@@ -65,19 +67,20 @@ fn settle<const N: usize>(
     // u = start + W J in the frames of the contacts.
     let mut yields = [[0.0; N]; N];
     let mut start = [0.0; N];
+    let turns = ball.radius_m * ball.radius_m * ball.inverse_inertia;
     for (i, frame) in frames.iter().enumerate() {
         let skin = ball.surface_velocity(frame[0]);
         for (p, axis) in frame.iter().enumerate() {
-            start[3 * i + p] = skin.dot(*axis);
+            let k = 3 * i + p;
+            start[k] = skin.dot(*axis);
+            yields[k][k] = ball.inverse_mass + if p > 0 { turns } else { 0.0 };
         }
-        for (j, other) in frames.iter().enumerate() {
-            for (q, push) in other.iter().enumerate() {
-                let mut pushed =
-                    Mover { velocity: DVec3::ZERO, angular_velocity: DVec3::ZERO, ..*ball };
-                pushed.push(other[0], *push);
-                let skin = pushed.surface_velocity(frame[0]);
-                for (p, axis) in frame.iter().enumerate() {
-                    yields[3 * i + p][3 * j + q] = skin.dot(*axis);
+        for (j, other) in frames.iter().enumerate().take(i) {
+            let block = yields_between(frame, other, ball.inverse_mass, turns);
+            for (p, row) in block.iter().enumerate() {
+                for (q, value) in row.iter().enumerate() {
+                    yields[3 * i + p][3 * j + q] = *value;
+                    yields[3 * j + q][3 * i + p] = *value;
                 }
             }
         }
@@ -115,7 +118,26 @@ fn settle<const N: usize>(
     None
 }
 
-/// One sweep of projected Gauss-Seidel: which contacts act, and against which slip.
+/// How the skin at one contact yields along its axes to impulses along those of another:
+/// p·q/m + (R²/I) (n·n′ p·q − p·n′ q·n).
+fn yields_between(
+    frame: &[DVec3; 3],
+    other: &[DVec3; 3],
+    inverse_mass: f64,
+    turns: f64,
+) -> [[f64; 3]; 3] {
+    let cosine = frame.map(|p| other.map(|q| p.dot(q)));
+    let mut block = cosine;
+    for (p, row) in block.iter_mut().enumerate() {
+        for (q, value) in row.iter_mut().enumerate() {
+            let turned = cosine[0][0] * cosine[p][q] - cosine[p][0] * cosine[0][q];
+            *value = inverse_mass * cosine[p][q] + turns * turned;
+        }
+    }
+    block
+}
+
+/// A few sweeps of projected Gauss-Seidel: which contacts act, and against which slip.
 fn first_guess<const N: usize>(
     start: &[f64; N],
     yields: &[[f64; N]; N],
@@ -125,11 +147,12 @@ fn first_guess<const N: usize>(
     let velocity = |impulses: &[f64; N], k: usize| {
         start[k] + yields[k].iter().zip(impulses).map(|(w, j)| w * j).sum::<f64>()
     };
-    for (i, surface) in surfaces.iter().enumerate() {
+    let order = (0..SWEEPS).flat_map(|_| surfaces.iter().enumerate());
+    for (i, surface) in order {
         let k = 3 * i;
         let lacks = surface.target_m_s - velocity(&impulses, k);
-        impulses[k] = (lacks / yields[k][k]).max(0.0);
-        let [a, b] = [k + 1, k + 2].map(|k| -velocity(&impulses, k) / yields[k][k]);
+        impulses[k] = (impulses[k] + lacks / yields[k][k]).max(0.0);
+        let [a, b] = [k + 1, k + 2].map(|k| impulses[k] - velocity(&impulses, k) / yields[k][k]);
         let (size, limit) = ((a * a + b * b).sqrt(), surface.friction * impulses[k]);
         let scale = if size > limit { limit / size } else { 1.0 };
         (impulses[k + 1], impulses[k + 2]) = (a * scale, b * scale);
@@ -191,31 +214,43 @@ fn rows<const N: usize>(
 }
 
 /// Gauss's elimination with the largest pivot of each column; none if the matrix is singular.
+#[allow(clippy::needless_range_loop)]
 fn eliminate<const N: usize>(matrix: &mut [[f64; N]; N], right: &mut [f64; N]) -> Option<[f64; N]> {
     for column in 0..N {
-        let pivot = (column..N)
-            .max_by(|a, b| matrix[*a][column].abs().total_cmp(&matrix[*b][column].abs()))?;
-        if matrix[pivot][column].abs() < 1e-12 {
+        let (mut pivot, mut largest) = (column, matrix[column][column].abs());
+        for row in column + 1..N {
+            let size = matrix[row][column].abs();
+            if size > largest {
+                (pivot, largest) = (row, size);
+            }
+        }
+        if !(largest >= 1e-12) {
             return None;
         }
-        matrix.swap(column, pivot);
-        right.swap(column, pivot);
-        let (head, tail) = matrix.split_at_mut(column + 1);
-        let leading = &head[column];
+        if pivot != column {
+            matrix.swap(column, pivot);
+            right.swap(column, pivot);
+        }
+        let leading = matrix[column];
         let inverse = 1.0 / leading[column];
-        for (offset, row) in tail.iter_mut().enumerate() {
-            let factor = row[column] * inverse;
+        for row in column + 1..N {
+            let factor = matrix[row][column] * inverse;
             if factor != 0.0 {
-                for (entry, lead) in row.iter_mut().zip(leading).skip(column) {
-                    *entry -= factor * lead;
+                // Whole rows: what is left of the column is never read again, and the loop has no
+                // bounds to check.
+                for k in 0..N {
+                    matrix[row][k] -= factor * leading[k];
                 }
-                right[column + 1 + offset] -= factor * right[column];
+                right[row] -= factor * right[column];
             }
         }
     }
     let mut solution = [0.0; N];
     for row in (0..N).rev() {
-        let known: f64 = (row + 1..N).map(|k| matrix[row][k] * solution[k]).sum();
+        let mut known = 0.0;
+        for k in row + 1..N {
+            known += matrix[row][k] * solution[k];
+        }
         solution[row] = (right[row] - known) / matrix[row][row];
     }
     Some(solution)

@@ -21,7 +21,7 @@ const SEARCH_MS: f64 = 1.0;
 /// Steps of each try. What grows by a thousandth a step has become several times as large.
 const TRIES: f64 = 4000.0;
 
-/// From where on a method fails: natural frequency times step, or a stiffness [N/m].
+/// From where on a method fails: natural frequency times step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
     /// As the solver shows it.
@@ -79,25 +79,6 @@ pub fn spring_limit(integrator: Integrator, ratio: f64) -> Result<Limit, Physics
         }
     }
     Ok(Limit { measured: 0.5 * (stable + unstable), theory: theory(integrator, ratio) })
-}
-
-/// The stiffness [N/m] from which on the exact solver gives up an undamped spring. It looks for
-/// contacts in pieces of a tenth of the frequency's inverse, and takes no more than 200 000 events
-/// a second for sane.
-pub fn pieces_limit() -> Limit {
-    const PIECE: f64 = 0.1;
-    const EVENTS_PER_S: f64 = 200_000.0;
-    let (mut fine, mut too_stiff) = (1e7, 1e9);
-    while too_stiff / fine > 1.005 {
-        let stiffness = f64::sqrt(fine * too_stiff);
-        if spring_cell(stiffness, 0.0, Method::EventDriven).class == Class::GivesUp {
-            too_stiff = stiffness;
-        } else {
-            fine = stiffness;
-        }
-    }
-    let omega = EVENTS_PER_S * PIECE;
-    Limit { measured: f64::sqrt(fine * too_stiff), theory: omega * omega * POOL_MASS_KG }
 }
 
 /// Whether a ball swings wider in the last quarter of the time than in the one before.

@@ -5,8 +5,10 @@ use crate::physics::scenes::{R, ball, on_bed, pool, run, state, with, world};
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::mesh::{Surface, parse_obj};
-use hapticbillard::physics::{Simulation, Work};
+use hapticbillard::physics::{Simulation, Work, sample_shots};
 use hapticbillard::table::{Plane, Table};
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
 
 /// A cue ball that slides, rolls and stops, without spin about the vertical.
 fn cue_ball() -> (Ball, BallState) {
@@ -123,4 +125,37 @@ fn a_table_without_balls_is_made_at_once_and_has_nothing_to_do() {
     assert_eq!(empty.work(), Work::default());
     let one = empty.with_balls(vec![cue_ball()]).unwrap();
     assert_eq!(end(one).0, end(world(pool(), &[cue_ball()], &exact())).0);
+}
+
+#[test]
+fn on_a_planar_table_nobody_looks_for_pockets_and_without_friction_of_balls_nobody_flies() {
+    let planar = sample_shots::planar(pool());
+    let work = |breaks: bool, friction: f64| {
+        let table = &planar;
+        let mut random = Pcg64::seed_from_u64(4);
+        let mut all = Work::default();
+        for _ in 0..10 {
+            let balls = if breaks {
+                sample_shots::break_shot(table, &mut random)
+            } else {
+                sample_shots::small_shot(table, &mut random)
+            };
+            let mut world = with(table, &balls.unwrap(), &exact(), |parameters| {
+                parameters.ball.friction = friction;
+            });
+            run(&mut world, 60.0);
+            assert!(world.is_still());
+            all += world.work();
+        }
+        all
+    };
+    let each = |count: u64, work: &Work| count as f64 / work.events as f64;
+    for breaks in [true, false] {
+        let flat = work(breaks, 0.05);
+        assert!(flat.pocket_tests == 0 && 0 < flat.contacts, "{flat:?}");
+        // Five planes are all there is to ask, while a mesh has jaws and rims.
+        assert!(each(flat.face_tests, &flat) <= 5.0, "{flat:?}");
+        // Only the friction of balls on each other lifts them there.
+        assert_eq!(work(breaks, 0.0).flights, 0, "breaks: {breaks}");
+    }
 }

@@ -5,7 +5,8 @@
 //! is too far, no face that the centre is not over, and no edge or corner beside which something
 //! else is nearer wherever in the cell the centre is.
 
-use super::{Block, Group, Node, Terrain, bounds_of};
+use super::plan::Lists;
+use super::{Block, Group, Listed, Node, Terrain, bounds_of};
 use glam::{DVec3, IVec3};
 use std::collections::BTreeMap;
 
@@ -26,25 +27,40 @@ const LISTED_MAX: usize = 16;
 pub const BESIDE_M: f64 = 1e-4;
 
 /// What is in reach of a ball somewhere in a box.
-#[derive(Debug, Default)]
-struct Parts {
+#[derive(Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Parts {
+    /// Patches of which no border is in reach: wherever the centre is, its foot is inside.
+    whole: Vec<u32>,
     triangles: Vec<u32>,
     edges: Vec<u32>,
     corners: Vec<u32>,
 }
 
 impl Parts {
+    /// Adds other parts; each is listed once, in ascending order.
+    pub fn join(&mut self, other: Parts) {
+        for (list, more) in [
+            (&mut self.triangles, other.triangles),
+            (&mut self.edges, other.edges),
+            (&mut self.corners, other.corners),
+        ] {
+            list.extend(more);
+            list.sort_unstable();
+            list.dedup();
+        }
+    }
+
     fn len(&self) -> usize {
         self.triangles.len() + self.edges.len() + self.corners.len()
     }
 }
 
 /// A box of space.
-struct Space {
-    middle: DVec3,
-    half: DVec3,
+pub(super) struct Space {
+    pub middle: DVec3,
+    pub half: DVec3,
     /// How far from it a ball with its centre in it reaches [m].
-    reach_m: f64,
+    pub reach_m: f64,
 }
 
 impl Space {
@@ -67,7 +83,7 @@ impl Terrain {
         if self.triangles.is_empty() || radius_m <= 0.0 {
             return;
         }
-        let reach = DVec3::splat(radius_m * 1.001 + 1e-6);
+        let reach = DVec3::splat(self.reach_m());
         let corners = || self.triangles.iter().flatten().copied();
         let low = corners().fold(DVec3::INFINITY, DVec3::min) - reach;
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max) + reach;
@@ -87,6 +103,7 @@ impl Terrain {
 
         let cells = self.list_parts();
         self.find_leaps(&cells);
+        self.plans = self.draw_plans(&cells, CUTS);
         self.nodes = vec![Node::default(); cells.len()];
         for (index, parts) in cells.iter().enumerate() {
             let low = self.cell_at(index) << CUTS;
@@ -163,39 +180,103 @@ impl Terrain {
             for child in 0..8 {
                 let low = low + IVec3::new(child & 1, child >> 1 & 1, child >> 2) * half;
                 let space = self.space(low, half);
-                let kept = Parts {
-                    triangles: kept(&parts.triangles, |part| self.is_over(part, &space)),
-                    edges: kept(&parts.edges, |part| self.is_at_edge(part, &space)),
-                    corners: kept(&parts.corners, |part| self.is_at_corner(part, &space)),
-                };
+                let kept = self.kept(parts, &space);
                 self.fill(first + child as usize, &kept, low, half);
             }
             return;
         }
+        let space = self.space(low, size);
+        let parts = self.kept(parts, &space);
+        let mut lists = core::mem::take(&mut self.lists);
+        let listed = self.list(&self.with_whole(parts, &space), &mut lists);
+        self.lists = lists;
+        self.nodes[node] = Node { children: 0, listed };
+    }
+
+    /// What of some parts a ball with its centre in `space` can touch.
+    pub(super) fn kept(&self, parts: &Parts, space: &Space) -> Parts {
+        Parts {
+            whole: Vec::new(),
+            triangles: kept(&parts.triangles, |part| self.is_over(part, space)),
+            edges: kept(&parts.edges, |part| self.is_at_edge(part, space)),
+            corners: kept(&parts.corners, |part| self.is_at_corner(part, space)),
+        }
+    }
+
+    /// Parts with the triangles of a patch replaced by the patch, where no border of it is in
+    /// reach.
+    pub(super) fn with_whole(&self, mut parts: Parts, space: &Space) -> Parts {
+        let patch_of = |triangle: &u32| self.faces[*triangle as usize];
+        let mut patches: Vec<u32> = parts.triangles.iter().map(patch_of).collect();
+        patches.sort_unstable();
+        patches.dedup();
+        let bordered = |patch: u32| {
+            let edge = |edge: &u32| {
+                self.edges[*edge as usize].sides.iter().any(|(side, _)| *side == patch)
+            };
+            parts.edges.iter().any(edge)
+                || parts
+                    .corners
+                    .iter()
+                    .any(|corner| self.corners[*corner as usize].patches.contains(&patch))
+        };
+        let over = |patch: u32| {
+            parts.triangles.iter().any(|triangle| {
+                patch_of(triangle) == patch
+                    && self.sides[*triangle as usize]
+                        .iter()
+                        .all(|side| side.inside_m(space.middle) >= 0.0)
+            })
+        };
+        patches.retain(|patch| !bordered(*patch) && over(*patch));
+        parts.triangles.retain(|triangle| !patches.contains(&patch_of(triangle)));
+        parts.whole = patches;
+        parts
+    }
+
+    /// Forgets a patch, but not its edges.
+    pub(super) fn without(&self, mut parts: Parts, patch: u32) -> Parts {
+        parts.triangles.retain(|triangle| self.faces[*triangle as usize] != patch);
+        parts.whole.retain(|other| *other != patch);
+        parts
+    }
+
+    /// Appends parts to `lists` and says where; triangles come patch by patch.
+    pub(super) fn list(&self, parts: &Parts, lists: &mut Lists) -> Listed {
         let mut triangles: Vec<(u32, u32)> =
             parts.triangles.iter().map(|part| (self.faces[*part as usize], *part)).collect();
         triangles.sort_unstable();
-        let groups = self.groups.len() as u32;
+        let groups = lists.groups.len() as u32;
         for run in triangles.chunk_by(|a, b| a.0 == b.0) {
-            let first = self.listed_triangles.len() as u32;
-            self.listed_triangles.extend(run.iter().map(|(_, triangle)| *triangle));
-            self.groups.push(Group { patch: run[0].0, first, count: run.len() as u32 });
+            let first = lists.triangles.len() as u32;
+            lists.triangles.extend(run.iter().map(|(_, triangle)| *triangle));
+            lists.groups.push(Group { patch: run[0].0, first, count: run.len() as u32 });
         }
-        let (edges, corners) = (self.listed_edges.len() as u32, self.listed_corners.len() as u32);
-        self.listed_edges.extend_from_slice(&parts.edges);
-        self.listed_corners.extend_from_slice(&parts.corners);
-        self.nodes[node] = Node {
-            children: 0,
-            groups: (groups, self.groups.len() as u32),
-            edges: (edges, self.listed_edges.len() as u32),
-            corners: (corners, self.listed_corners.len() as u32),
-        };
+        lists.groups.extend(parts.whole.iter().map(|patch| Group {
+            patch: *patch,
+            first: 0,
+            count: 0,
+        }));
+        lists.groups[groups as usize..].sort_unstable_by_key(|group| group.patch);
+        let (edges, corners) = (lists.edges.len() as u32, lists.corners.len() as u32);
+        lists.edges.extend_from_slice(&parts.edges);
+        lists.corners.extend_from_slice(&parts.corners);
+        Listed {
+            groups: (groups, lists.groups.len() as u32),
+            edges: (edges, lists.edges.len() as u32),
+            corners: (corners, lists.corners.len() as u32),
+        }
     }
 
     fn space(&self, low: IVec3, size: i32) -> Space {
         let half = 0.5 * f64::from(size) * self.cell_m;
         let middle = self.origin + low.as_dvec3() * self.cell_m + half;
-        Space { middle, half, reach_m: self.radius_m * 1.001 + 1e-6 }
+        Space { middle, half, reach_m: self.reach_m() }
+    }
+
+    /// How far a ball reaches, and a little more [m].
+    pub(super) fn reach_m(&self) -> f64 {
+        self.radius_m * 1.001 + 1e-6
     }
 
     /// Whether a ball with its centre in `space` can touch a triangle, its foot being inside.
@@ -237,7 +318,7 @@ impl Terrain {
     /// Calls `found` for each coarse cell from which a ball may reach the box around some points.
     fn visit(&self, points: &[DVec3], mut found: impl FnMut(usize, &Space)) {
         let (first, last) = bounds_of(points.iter().copied());
-        let reach = self.radius_m * 1.001 + 1e-6;
+        let reach = self.reach_m();
         let count = self.count >> CUTS;
         let low = (self.place_of(first - reach) >> CUTS).clamp(IVec3::ZERO, count - 1);
         let high = (self.place_of(last + reach) >> CUTS).clamp(IVec3::ZERO, count - 1);
@@ -265,7 +346,7 @@ impl Terrain {
     /// the main patch left aside if `on_main` says that it carries the ball.
     pub fn block_at(&self, place: IVec3, on_main: bool) -> Block {
         let (cell, count) = (place >> CUTS, self.count >> CUTS);
-        let mut block = Block { node: None, low: cell << CUTS, high: (cell << CUTS) + LAST };
+        let mut block = Block { listed: None, low: cell << CUTS, high: (cell << CUTS) + LAST };
         if cell.cmplt(IVec3::ZERO).any() || cell.cmpge(count).any() {
             return block;
         }
@@ -285,8 +366,21 @@ impl Terrain {
             block.low = IVec3::select(upper, block.low + size, block.low);
         }
         block.high = block.low + (size - 1);
-        block.node = Some(node);
+        block.listed = Some(self.nodes[node].listed);
         block
+    }
+
+    /// Whether any cell lists something where the centre of a ball is in a box.
+    pub fn lists_between(&self, low: DVec3, high: DVec3) -> bool {
+        let count = self.count >> CUTS;
+        let (low, high) = (self.place_of(low) >> CUTS, self.place_of(high) >> CUTS);
+        let (low, high) = (low.max(IVec3::ZERO), high.min(count - 1));
+        (low.z..=high.z).any(|z| {
+            (low.y..=high.y).any(|y| {
+                (low.x..=high.x)
+                    .any(|x| self.empty[((z * count.y + y) * count.x + x) as usize] == 0)
+            })
+        })
     }
 
     /// The corners of a block [m]; infinite where it goes beyond the grid.
