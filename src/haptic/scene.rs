@@ -149,6 +149,20 @@ pub struct Reach {
 }
 
 impl Reach {
+    /// Whether it can be reckoned with. One that cannot is not reached at all.
+    pub(super) fn is_sound(&self) -> bool {
+        let angles = self.azimuth_rad.is_finite() && self.elevation_rad.is_finite();
+        let factors = [self.scale, self.stroke_gain, self.tip_radius_m];
+        let cue = self.cue.is_none_or(|cue| {
+            let CueBody { mass_kg, end_mass_kg, contact, coupling_rad_s } = cue;
+            let Contact { restitution, friction } = contact;
+            [mass_kg, end_mass_kg, coupling_rad_s].iter().all(|x| 0.0 < *x && x.is_finite())
+                && restitution.is_finite()
+                && friction.is_finite()
+        });
+        angles && cue && self.pivot.is_finite() && factors.iter().all(|x| 0.0 < *x && *x < 1e6)
+    }
+
     /// The workspace behind a ball whose middle is at `pivot`, in the direction of `aim`.
     pub fn to_ball(
         serial: u32,

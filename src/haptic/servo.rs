@@ -84,8 +84,8 @@ impl Servo {
         self.velocity += (device.velocity - self.velocity) * -libm::expm1(-cut_off * dt);
         self.world.go_on(scene, dt);
         let felt = match &scene.reach {
-            Some(reach) => self.touch(reach, device, dt),
-            None => self.let_go(),
+            Some(reach) if reach.is_sound() => self.touch(reach, device, dt),
+            _ => self.let_go(),
         };
 
         self.report.sample.tick = self.report.counters.ticks;

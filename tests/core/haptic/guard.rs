@@ -117,6 +117,20 @@ fn a_world_that_says_no_numbers_gives_no_force() {
     });
     contact.ticks(100);
     assert!((contact.newton() - 1.0).abs() < 1e-6);
+    // Nor is a workspace that lies nowhere, and neither leaves a trace.
+    let sound = contact.scene.reach.unwrap();
+    for wrong in [
+        Reach { pivot: DVec3::X * f64::NAN, ..sound },
+        Reach { scale: 0.0, ..sound },
+        Reach { azimuth_rad: f64::INFINITY, ..sound },
+    ] {
+        contact.scene.reach = Some(Reach { serial: sound.serial + 1, ..wrong });
+        contact.ticks(10);
+        assert!((contact.newton() - 1.0).abs() < 1e-6);
+        contact.scene.reach = Some(sound);
+        contact.ticks(10);
+        assert!(contact.servo.report().sample.tip.is_finite());
+    }
 }
 
 #[test]
