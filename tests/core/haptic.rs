@@ -4,6 +4,7 @@ mod allocation;
 mod cases;
 mod effects;
 mod guard;
+mod mouse;
 mod rig;
 mod section;
 mod strokes;

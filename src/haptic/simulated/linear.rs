@@ -50,7 +50,8 @@ impl Linear {
 /// exp(A h) by scaling, Taylor series and squaring.
 fn exponential(a: &Square, h: f64) -> Square {
     let norm: f64 = a.iter().flatten().map(|x| (x * h).abs()).sum();
-    let halvings = libm::ceil(libm::log2(norm.max(1e-9))).max(0.0) as i32 + 6;
+    // A system that is not finite gives a step that is not, after bounded work.
+    let halvings = libm::ceil(libm::log2(norm.max(1e-9))).clamp(0.0, 1000.0) as i32 + 6;
     let scale = h / libm::exp2(f64::from(halvings));
 
     let mut sum = identity();

@@ -4,9 +4,12 @@ use crate::haptic::simulated::{Guide, HandModel, HandScript, SimulatedDevice};
 use crate::haptic::{
     Device, DeviceSpec, Effect, EffectSet, HapticScene, SafetySettings, Servo, ServoSettings,
 };
-use crate::validation::error::Trouble;
+use crate::validation::error::{Trouble, unsupported};
 use crate::validation::setup::Setup;
 use glam::DVec3;
+
+/// Shortest and longest period: no file may ask for a year of work [s].
+const PERIOD_S: (f64, f64) = (1e-5, 1.0);
 
 /// The loop.
 pub(super) struct Bench {
@@ -20,6 +23,9 @@ pub(super) struct Bench {
 /// The device that a case describes.
 pub(super) fn spec(setup: &Setup<'_>) -> Result<DeviceSpec, Trouble> {
     let period_s = setup.positive("T_s")?;
+    if !(PERIOD_S.0..=PERIOD_S.1).contains(&period_s) {
+        return unsupported(format!("a period of {period_s} s"));
+    }
     Ok(DeviceSpec {
         model: "case",
         mass_kg: setup.positive("m_kg")?,

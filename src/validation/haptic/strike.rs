@@ -10,7 +10,7 @@ use crate::haptic::{
 };
 use crate::ids::BallId;
 use crate::physics::{Contact, Parameters};
-use crate::validation::error::Trouble;
+use crate::validation::error::{Trouble, unsupported};
 use crate::validation::observed::Observations;
 use crate::validation::setup::Setup;
 use glam::DVec3;
@@ -19,8 +19,10 @@ use glam::DVec3;
 /// come to rest, and for this long after it.
 const RUN_IN_S: f64 = 0.5;
 const FOLLOW_S: f64 = 0.15;
+/// Longest step of the physics [s].
+const STEP_MAX_S: f64 = 1.0;
 /// Most strokes of a run.
-const PHASES_MAX: u64 = 10_000;
+const PHASES_MAX: u64 = 1_000;
 
 /// What one stroke showed.
 struct Stroke {
@@ -46,7 +48,7 @@ pub(in crate::validation) fn strike_repeatability(
 ) -> Result<Observations, Trouble> {
     let phases = setup.count("phases")?.unwrap_or(1);
     if !(1..=PHASES_MAX).contains(&phases) {
-        return Err(setup.error("phases", format!("{phases}"), "write 1 to 10000").into());
+        return Err(setup.error("phases", format!("{phases}"), "write 1 to 1000").into());
     }
     let range = Range::new(setup)?;
     let mut strokes = Vec::new();
@@ -113,6 +115,9 @@ impl<'s> Range<'s> {
         });
         let speed_m_s = setup.positive("speed_m_s")?;
         let step_s = setup.positive("physics_step_s")?;
+        if step_s > STEP_MAX_S {
+            return unsupported(format!("steps of {step_s} s"));
+        }
         Ok(Range { setup, spec, settings, scene, speed_m_s, step_s, mass_kg })
     }
 

@@ -9,9 +9,9 @@ use crate::validation::setup::Setup;
 use glam::DVec3;
 
 /// Longest tap [ticks].
-const TAP_MAX: u32 = 100_000;
+const TAP_MAX: u32 = 20_000;
 /// Most taps of a run.
-const PHASES_MAX: u64 = 100_000;
+const PHASES_MAX: u64 = 10_000;
 /// A wall has settled if the device moves less than this from then on: two steps of an Omni's
 /// encoder [m].
 const SETTLED_M: f64 = 1.1e-4;
@@ -28,7 +28,7 @@ fn taps(setup: &Setup<'_>) -> Result<Vec<Tap>, Trouble> {
     let (stiffness, damping) = (setup.positive("K_N_m")?, setup.number_or_zero("B_Ns_m")?);
     let phases = setup.count("phases")?.unwrap_or(1);
     if !(1..=PHASES_MAX).contains(&phases) {
-        return Err(setup.error("phases", format!("{phases}"), "write 1 to 100000").into());
+        return Err(setup.error("phases", format!("{phases}"), "write 1 to 10000").into());
     }
     let way_m = speed * spec.period_s();
     let tap = |phase: u64| {

@@ -5,8 +5,8 @@ use crate::input::desk::Desk;
 use glam::DVec2;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::FactKind;
-use hapticbillard::haptic::simulated::HandModel;
-use hapticbillard::haptic::{ReachSettings, Rehearsal};
+use hapticbillard::haptic::simulated::{Guide, HandModel};
+use hapticbillard::haptic::{ReachSettings, Rehearsal, telemetry};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::HumanMode;
 use hapticbillard::scene::Scene;
@@ -137,4 +137,14 @@ fn a_hand_at_one_and_a_half_metres_a_second_breaks_harder_than_8_m_s() {
     let ready = drawn_back(HandModel::ARM, &aim());
     let felt = play(&ready, stroke(1.5, 0.0));
     assert!(felt.ball.length() > 8.0, "{}", felt.ball);
+}
+
+#[test]
+fn the_same_stroke_gives_the_same_bits() {
+    let told = || {
+        let mut rig = drawn_back(HandModel::FIRM, &aim());
+        *rig.device.guide_mut() = Guide::Script(stroke(0.9, 0.000_3));
+        (0..300).map(|_| telemetry::row(&rig.tick().unwrap())).collect::<Vec<_>>()
+    };
+    assert_eq!(told(), told());
 }
