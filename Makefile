@@ -6,7 +6,7 @@ PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcu
 	libxrandr2 libxkbcommon-x11-0 pkg-config
 CARGO := cargo
 
-.PHONY: play test window setup early featureless lints everything documents package
+.PHONY: play test window peers setup early featureless lints everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -15,6 +15,10 @@ play: setup
 window: setup
 	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game:: \
 	  -- --nocapture
+
+# Other programs on the report's cases, and the report with them: see tests/peers/README.md.
+peers:
+	python3 tests/peers/run.py
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package

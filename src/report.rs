@@ -5,22 +5,26 @@
 //! then estimated. Nothing here reads a clock: whoever calls may time [`Prepared::watch`].
 
 mod answers;
+mod case;
 mod catalogue;
 mod chaos;
 mod hop;
 mod idle;
 mod method;
 mod order;
+mod peers;
 mod stability;
 mod starts;
 mod trial;
 
+pub use case::{CaseBall, CaseStart, Ground, GroundPlane, Law, Part, Rub, SceneCase};
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
 pub use hop::{Form, Hop, hop};
 pub use idle::{Idle, idle};
 pub use method::{METHODS, Method, STEPS_MS};
 pub use order::{all_methods, fitted_order, on_the_front, orders};
+pub use peers::{PeerRow, PeerStatus, Peers, PeersError, Program, cheaper_and_better};
 pub use stability::{
     CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
     rest_rows, spring_cell, spring_limit,

@@ -1,5 +1,7 @@
 //! `hapticbillard report`: how far each method is from the truth, at what cost, where it breaks.
 
+mod cases;
+
 mod csv;
 
 mod figure;
@@ -9,6 +11,8 @@ mod left_out;
 mod measure;
 
 mod page;
+
+mod peers;
 
 mod stability;
 
@@ -28,7 +32,8 @@ times of this machine; everything else is the same on every machine.
 
 Examples:
   hapticbillard report --quick
-  hapticbillard report --out report --json";
+  hapticbillard report --out report --json
+  hapticbillard report --cases target/peers/cases.jsonl";
 
 /// Measures error against run time of every method, and where each of them breaks.
 #[derive(Debug, Clone, Args)]
@@ -46,6 +51,15 @@ pub struct ReportArgs {
     #[arg(long, value_name = "ID", num_args = 1..)]
     pub only: Vec<String>,
 
+    /// Writes the scenes in numbers to this file, a JSON line each, and measures nothing: starts,
+    /// laws, ground, and where the balls should be.
+    #[arg(long, value_name = "FILE", conflicts_with = "peers")]
+    pub cases: Option<PathBuf>,
+
+    /// Adds what other programs made of the same cases, from the file that tests/peers writes.
+    #[arg(long, value_name = "FILE")]
+    pub peers: Option<PathBuf>,
+
     /// Prints JSON lines.
     #[arg(long)]
     pub json: bool,
@@ -54,6 +68,9 @@ pub struct ReportArgs {
 /// Measures and writes.
 pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let scenes = choose(&args.only)?;
+    if let Some(file) = &args.cases {
+        return cases::write(file, &scenes, args.quick, out);
+    }
     let bar = progress(scenes.len() as u64 * all_methods().len() as u64, "rows");
     let measured: Vec<Measured> = scenes
         .iter()
@@ -61,19 +78,23 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
         .collect::<Result<_, Error>>()?;
     bar.finish_and_clear();
 
+    // A file that does not fit is refused before the rest is measured.
+    let peers = args.peers.as_deref().map(|file| peers::read(file, &measured)).transpose()?;
+    let peers = peers.as_ref();
+
     let bar = progress(stability::length(), "cells");
     let table = stability::measure(args.quick, &bar)?;
     bar.finish_and_clear();
     let idle = left_out::measure()?;
 
     let write = |name: &str, text: &str| write_whole(&args.out.join(name), text.as_bytes());
-    write("errors.csv", &csv::errors(&measured))?;
+    write("errors.csv", &csv::errors(&measured, peers))?;
     write("stability.csv", &csv::stability(&table))?;
     for scene in &measured {
-        write(&figure::name(scene), &figure::scene(scene)?)?;
+        write(&figure::name(scene), &figure::scene(scene, peers)?)?;
     }
     write(figure::CHAOS, &figure::growth(&table.growth)?)?;
-    write("REPORT.md", &page::page(&measured, &table, &idle, args.quick))?;
+    write("REPORT.md", &page::page(&measured, peers, &table, &idle, args.quick))?;
     print(args, &measured, out)
 }
 

@@ -35,6 +35,15 @@ pub enum PhysicsError {
          steps; use solver = \"fixed-step\", or profile = \"standard\""
     )]
     ProfileNeedsSteps,
+    /// Balls were to stay on a bed that has holes and rims.
+    #[error(
+        "flight = false keeps balls on a plane, and this table has a mesh to fall from; use \
+         planes only, or flight = true"
+    )]
+    FlightNeeded,
+    /// The stepper cannot keep balls on the bed.
+    #[error("flight = false is for solver = \"event-driven\"; fixed-step lets balls hop")]
+    FlightNeedsEvents,
     /// Two balls have the same name.
     #[error("ball {0} exists twice; give each ball an id of its own")]
     DuplicateBall(BallId),

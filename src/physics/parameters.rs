@@ -69,6 +69,8 @@ pub struct Parameters {
     pub cushion_law: CushionLaw,
     /// What several contacts at one instant do.
     pub multi_contact: MultiContact,
+    /// Whether a carried ball may be thrown up.
+    pub flight: bool,
 }
 
 impl Parameters {
@@ -94,6 +96,7 @@ impl Parameters {
             ball_friction_curve: FrictionCurve::ALCIATORE,
             cushion_law: CushionLaw::default(),
             multi_contact: MultiContact::default(),
+            flight: true,
         }
     }
 
@@ -121,6 +124,7 @@ impl Parameters {
         parameters.ball_law = settings.ball_law;
         parameters.cushion_law = settings.cushion_law;
         parameters.multi_contact = settings.multi_contact;
+        parameters.flight = settings.flight;
         if settings.cushion_law == CushionLaw::Mathavan2010 {
             parameters.cushion = mathavan_2010::CUSHION;
         }

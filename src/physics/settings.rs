@@ -25,6 +25,8 @@ pub struct PhysicsSettings {
     pub gravity_m_s2: f64,
     /// Friction between balls; the paper switches it off to see what it does (section 5.4.3).
     pub ball_friction: bool,
+    /// Balls hop and jump. Without it what the bed carries stays on it, as in a planar program.
+    pub flight: bool,
     /// Whether `fixed-step` computes contact point and normal back in time (section 5.4.3).
     pub contact_back_dating: bool,
     /// Runs on a thread of its own.
@@ -43,6 +45,7 @@ impl Default for PhysicsSettings {
             multi_contact: MultiContact::default(),
             gravity_m_s2: 9.81,
             ball_friction: true,
+            flight: true,
             contact_back_dating: true,
             thread: false,
         }

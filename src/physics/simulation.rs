@@ -98,6 +98,12 @@ impl Simulation {
             SolverKind::EventDriven if settings.profile == Profile::Paper2009 => {
                 return Err(PhysicsError::ProfileNeedsSteps);
             }
+            SolverKind::EventDriven if !settings.flight && !table.mesh.faces.is_empty() => {
+                return Err(PhysicsError::FlightNeeded);
+            }
+            SolverKind::FixedStep if !settings.flight => {
+                return Err(PhysicsError::FlightNeedsEvents);
+            }
             SolverKind::EventDriven => {
                 let solver = EventDriven::new(table, balls, parameters)?;
                 Engine::EventDriven(Box::new(solver))

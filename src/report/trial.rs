@@ -12,7 +12,7 @@ use crate::units::Seconds;
 use glam::DVec3;
 
 /// How often an error is looked at.
-const LOOKS: u32 = 32;
+pub(super) const LOOKS: u32 = 32;
 /// A ball farther away than this has flown apart [m].
 const FAR_M: f64 = 1e4;
 /// The disturbance that shows how sure a reference is, relative to the first ball's velocity.
@@ -26,9 +26,9 @@ pub struct Prepared {
     pub until_s: Seconds,
     /// How far the truth itself may be off [m].
     pub reference_error_m: f64,
-    table: Table,
-    starts: Vec<Start>,
-    truth: Vec<Track>,
+    pub(super) table: Table,
+    pub(super) starts: Vec<Start>,
+    pub(super) truth: Vec<Track>,
 }
 
 /// Where the balls went.
@@ -120,7 +120,7 @@ impl Prepared {
         self.scene.answer.is_some()
     }
 
-    fn parameters(&self, method: Method) -> Parameters {
+    pub(super) fn parameters(&self, method: Method) -> Parameters {
         let mut parameters = Parameters::of(&method.settings());
         (self.scene.parameters)(&mut parameters);
         parameters
@@ -175,7 +175,7 @@ impl Prepared {
         Ok(track)
     }
 
-    fn look_s(&self, look: u32) -> Seconds {
+    pub(super) fn look_s(&self, look: u32) -> Seconds {
         self.until_s * f64::from(look) / f64::from(LOOKS)
     }
 

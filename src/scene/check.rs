@@ -49,6 +49,14 @@ fn ground(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
             "write [table] and preset = \"pool-9ft\", or list each ball as [[ball]]",
         ));
     }
+    let meshes = scene.table.is_some() || !scene.meshes.is_empty() || !scene.boxes.is_empty();
+    if !scene.physics.flight && meshes {
+        return Err(root.error_about(
+            "physics",
+            "flight = false keeps balls on a plane, and there are faces to fall from",
+            "describe the ground and the cushions as [[plane]], or leave flight out",
+        ));
+    }
     let bed = scene.table.as_ref().and_then(|table| bed(&table.preset));
     for (i, ball) in scene.ball.iter().enumerate().filter(|(_, ball)| ball.flags.collide) {
         let wrong = |allowed: &str, fix: &str| Err(at(root, "ball", i, "position_m", allowed, fix));

@@ -112,6 +112,8 @@ impl Scene {
         };
         let gravity = format!("{} m/s² downwards", self.physics.gravity_m_s2);
         term(plan, self.physics.gravity_m_s2 > 0.0, "gravity", &gravity, "gravity_m_s2 is 0");
+        let why = "flight is false";
+        term(plan, self.physics.flight, "flight", "balls hop and jump", why);
         let pairs = counted(balls * balls.saturating_sub(1) / 2, "pair");
         term(plan, balls > 1, "ball-ball contact", &pairs, "fewer than two balls");
         let friction = self.physics.ball_friction && balls > 1;

@@ -114,6 +114,7 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         "multi_contact",
         "gravity_m_s2",
         "ball_friction",
+        "flight",
         "contact_back_dating",
         "thread",
     ])?;
@@ -153,6 +154,14 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
             "add solver = \"fixed-step\", or write profile = \"standard\"",
         ));
     }
+    let flight = section.switch("flight")?.unwrap_or(default.flight);
+    if !flight && solver == SolverKind::FixedStep {
+        return Err(section.error(
+            "flight",
+            "fixed-step lets balls hop",
+            "write solver = \"event-driven\", or leave flight out",
+        ));
+    }
     Ok(PhysicsSettings {
         solver,
         step_ms: section.number("step_ms", step)?.unwrap_or(default.step_ms),
@@ -163,6 +172,7 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
         multi_contact: section.choice("multi_contact", &rules)?.unwrap_or(default.multi_contact),
         gravity_m_s2: section.number("gravity_m_s2", gravity)?.unwrap_or(default.gravity_m_s2),
         ball_friction: section.switch("ball_friction")?.unwrap_or(default.ball_friction),
+        flight,
         contact_back_dating: section
             .switch("contact_back_dating")?
             .unwrap_or(default.contact_back_dating),

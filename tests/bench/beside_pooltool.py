@@ -2,11 +2,12 @@
 
     python tests/bench/beside_pooltool.py target/release/hapticbillard [SHOTS [ROUNDS]]
 
-Needs pooltool 0.6. The program draws the shots (`simulate --bench --json`: breaks of fifteen balls
-at 8 to 10 m/s, and two or three balls at 0.5 to 5 m/s, until rest on its full mesh, flight
-included) and times them; pooltool starts from the same positions, velocities and spins on a table
-of the same size, in the plane, with its default models. Processor time of one thread, after
-pooltool has compiled itself. Rounds alternate; only ratios within one run mean anything.
+Needs pooltool 0.6: `pip install --no-deps -r tests/peers/requirements/pooltool.txt`. The program
+draws the shots (`simulate --bench --json`: breaks of fifteen balls at 8 to 10 m/s, and two or three
+balls at 0.5 to 5 m/s, until rest on its full mesh, flight included) and times them; pooltool starts
+from the same positions, velocities and spins on a table of the same size, in the plane, with its
+default models. Processor time of one thread, after pooltool has compiled itself. Rounds alternate;
+only ratios within one run mean anything. Errors against run time, scene by scene: tests/peers.
 """
 
 import json

@@ -1,5 +1,8 @@
 //! The report: orders that are reached, who is best at what price, and what breaks.
 
+/// Other programs on the same cases.
+mod peers;
+
 use crate::physics::scenes::{break_shot, pool, slow};
 use hapticbillard::physics::{Integrator, PhysicsSettings, SolverKind};
 use hapticbillard::report::{

@@ -147,13 +147,13 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "step_s = 0.004\n",
         "4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, profile, \
-         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, \
+         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, flight, \
          contact_back_dating, thread; did you mean step_ms?",
     );
     after_head(
         "gravity = 9.81\n",
         "4: physics.gravity = 9.81: physics has the keys solver, step_ms, integrator, profile, \
-         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, \
+         ball_law, cushion_law, multi_contact, gravity_m_s2, ball_friction, flight, \
          contact_back_dating, thread; did you mean gravity_m_s2?",
     );
     after_head(

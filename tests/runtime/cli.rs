@@ -326,3 +326,69 @@ fn report_writes_tables_figures_and_a_page_that_name_the_same_runs() {
          thousand",
     );
 }
+
+#[test]
+fn report_puts_other_programs_beside_its_own_rows() {
+    let folder = folder("report_peers");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let (cases, file) = (path("cases.jsonl"), path("peers.json"));
+    let bounce = ["report", "--quick", "--only", "bounce"];
+    let output = program(&[&bounce[..], &["--cases", &cases]].concat());
+    assert!(output.status.success(), "{output:?}");
+    let case = &lines(&std::fs::read(&cases).unwrap())[0];
+    assert_eq!(case["starts"][0]["truth_m"].as_array().unwrap().len(), 32);
+
+    let row = |program: &str, step_ms: Value, error_m: Value, status: &str, remark: &str| {
+        serde_json::json!({
+            "scene": "bounce", "digest": case["digest"], "program": program, "setting": "",
+            "step_ms": step_ms, "starts": 3, "error_m": error_m,
+            "cpu_us_per_s": if error_m.is_null() { Value::Null } else { [1e-3; 3].into() },
+            "status": status, "remark": remark,
+        })
+    };
+    let one = |name: &str, problem: Option<&str>| {
+        let about = format!("About {name}.");
+        serde_json::json!({"name": name, "version": "1", "about": about, "problem": problem})
+    };
+    let mut peers = serde_json::json!({
+        "made": "some day",
+        "programs": [one("alpha", None), one("beta", None), one("gamma", Some("no wheel"))],
+        "rows": [
+            row("alpha", 4.0.into(), 1e-20.into(), "ok", "helped"),
+            row("beta", Value::Null, Value::Null, "cannot_express", "balls cannot fly"),
+        ],
+    });
+    let write = |peers: &Value| std::fs::write(&file, peers.to_string()).unwrap();
+    write(&peers);
+    let out = path("out");
+    let output = program(&[&bounce[..], &["--out", &out, "--peers", &file]].concat());
+    assert!(output.status.success(), "{output:?}");
+    let read = |name: &str| std::fs::read_to_string(Path::new(&out).join(name)).unwrap();
+    let page = read("REPORT.md");
+    for expected in [
+        "- alpha (1): About alpha.",
+        "- gamma (not run: no wheel): About gamma.",
+        "| alpha | 4 | 1.0e-20 | - | 0.0 (0.0 to 0.0) | - | ok: helped |",
+        "| beta | - | - | - | - | - | cannot express: balls cannot fly |",
+        "Event-driven is not on the Pareto front: as good and as cheap or better are alpha at 4 ms",
+    ] {
+        assert!(page.contains(expected), "{expected} is not in\n{page}");
+    }
+    let errors = read("errors.csv");
+    assert!(errors.contains("\nbounce,\"beta\",,position,"), "{errors}");
+    let fields = |line: &str| line.split(',').count();
+    let counts: Vec<usize> = errors.lines().map(fields).collect();
+    assert!(counts.windows(2).all(|pair| pair[0] == pair[1]), "{errors}");
+    let figure = read("bounce.svg");
+    assert!(figure.contains("alpha") && !figure.contains("beta"), "{figure}");
+
+    peers["rows"][0]["digest"] = "0000000000000001".into();
+    write(&peers);
+    refused(
+        &[&bounce[..], &["--out", &out, "--peers", &file]].concat(),
+        &format!(
+            "--peers {file}: alpha was given another scene 'bounce' than this one; \
+             write it anew with tests/peers/run.py"
+        ),
+    );
+}

@@ -1,8 +1,9 @@
 //! The tables as comma-separated values and JSON.
 
 use super::measure::{Measured, Timed};
+use super::peers;
 use super::stability::Table;
-use hapticbillard::report::Status;
+use hapticbillard::report::{Peers, Status};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -16,16 +17,17 @@ pub fn status(status: &Status) -> (&'static str, String) {
 }
 
 /// A text as one field.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('"', "\"\""))
 }
 
-fn number(value: Option<f64>) -> String {
+/// A number, or nothing.
+pub fn number(value: Option<f64>) -> String {
     value.map(|value| format!("{value:e}")).unwrap_or_default()
 }
 
 /// One line per row, under a head.
-pub fn errors(measured: &[Measured]) -> String {
+pub fn errors(measured: &[Measured], peers: Option<&Peers>) -> String {
     let mut text = String::from(
         "scene,method,step_ms,error_name,norm,unit,error,reference,reference_error,\
          observed_order,simulated_s,cpu_us_per_s_median,cpu_us_per_s_min,cpu_us_per_s_max,steps,\
@@ -66,6 +68,9 @@ pub fn errors(measured: &[Measured]) -> String {
                 work.pocket_tests,
                 quoted(&remark),
             );
+        }
+        if let Some(peers) = peers {
+            peers::csv(&mut text, scene, peers);
         }
     }
     text

@@ -1,7 +1,8 @@
 //! Figures: errors against steps and against run time, on logarithmic scales.
 
 use super::measure::{Measured, Timed};
-use hapticbillard::report::{Growth, Status};
+use super::peers::{self, Curve};
+use hapticbillard::report::{Growth, PeerRow, Peers, Status};
 use hapticbillard_actors::error::Error;
 use plotters::prelude::*;
 use std::fmt::Display;
@@ -17,6 +18,13 @@ const LINES: [(&str, RGBColor); 3] = [
     ("euler-cromer", RGBColor(213, 94, 0)),
     ("velocity-verlet", RGBColor(0, 114, 178)),
     ("rk4", RGBColor(0, 158, 115)),
+];
+/// Other programs' colours.
+const OTHERS: [RGBColor; 4] = [
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(120, 120, 120),
 ];
 
 fn failed(error: impl Display) -> Error {
@@ -40,7 +48,13 @@ fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 }
 
 /// Error against step, and error against processor time.
-pub fn scene(measured: &Measured) -> Result<String, Error> {
+pub fn scene(measured: &Measured, peers: Option<&Peers>) -> Result<String, Error> {
+    let id = measured.prepared.scene.id;
+    let curves = |along: fn(&PeerRow) -> Option<f64>| {
+        peers.map_or_else(Vec::new, |peers| peers::curves(peers, id, along))
+    };
+    let by_step = curves(|row| row.step_ms);
+    let by_time = curves(|row| row.point().map(|point| point.1));
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -48,10 +62,9 @@ pub fn scene(measured: &Measured) -> Result<String, Error> {
         let area =
             area.titled(measured.prepared.scene.title, ("sans-serif", 20)).map_err(failed)?;
         let (left, right) = area.split_horizontally(SIZE.0 / 2);
-        panel(&left, measured, "step [ms]", |timed| timed.row.method.step_ms())?;
-        panel(&right, measured, "processor time per simulated second [us]", |timed| {
-            timed.cpu_us.map(|cpu| cpu.median)
-        })?;
+        panel(&left, measured, &by_step, "step [ms]", |timed| timed.row.method.step_ms())?;
+        let time = "processor time per simulated second [us]";
+        panel(&right, measured, &by_time, time, |timed| timed.cpu_us.map(|cpu| cpu.median))?;
         area.present().map_err(failed)?;
     }
     Ok(text)
@@ -62,6 +75,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 fn panel(
     area: &Area<'_>,
     measured: &Measured,
+    curves: &[Curve<'_>],
     what: &str,
     along: impl Fn(&Timed) -> Option<f64>,
 ) -> Result<(), Error> {
@@ -72,8 +86,10 @@ fn panel(
     let points: Vec<(f64, f64)> = measured.rows.iter().filter_map(drawn).collect();
     let exact = measured.rows.iter().find(|timed| timed.row.method.step_ms().is_none());
     let exact_error = exact.and_then(|timed| timed.row.error_m).map(|error| error.max(LEAST_M));
-    let xs = decades(points.iter().map(|point| point.0));
-    let ys = decades(points.iter().map(|point| point.1).chain(exact_error));
+    let others = || curves.iter().flat_map(|curve| &curve.points);
+    let xs = decades(points.iter().chain(others()).map(|point| point.0));
+    let errors = points.iter().chain(others()).map(|point| point.1.max(LEAST_M));
+    let ys = decades(errors.chain(exact_error));
     let mut chart = ChartBuilder::on(area)
         .margin(10)
         .x_label_area_size(40)
@@ -101,6 +117,21 @@ fn panel(
             .map_err(failed)?
             .label(method)
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 20, y)], colour.stroke_width(2)));
+    }
+    let mut named = None;
+    for curve in curves {
+        let colour = OTHERS[curve.number % OTHERS.len()];
+        let points = || curve.points.iter().map(|(x, error)| (*x, error.max(LEAST_M)));
+        chart.draw_series(LineSeries::new(points(), colour.stroke_width(1))).map_err(failed)?;
+        let marks = points().map(|point| Cross::new(point, 3, colour.stroke_width(1)));
+        let series = chart.draw_series(marks).map_err(failed)?;
+        // The settings of a program share a colour and a name.
+        if named != Some(curve.number) {
+            named = Some(curve.number);
+            series
+                .label(curve.name)
+                .legend(move |(x, y)| Cross::new((x + 10, y), 3, colour.stroke_width(1)));
+        }
     }
     if let (Some(timed), Some(error)) = (exact, exact_error) {
         let style = BLACK.stroke_width(2);

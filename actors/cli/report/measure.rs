@@ -46,10 +46,14 @@ pub struct Spread {
     pub most: f64,
 }
 
+/// Most starts of a scene.
+pub fn most_starts(quick: bool) -> usize {
+    if quick { QUICK_STARTS } else { usize::MAX }
+}
+
 /// Measures a scene.
 pub fn scene(scene: Scene, quick: bool, bar: &ProgressBar) -> Result<Measured, Error> {
-    let starts = if quick { QUICK_STARTS } else { usize::MAX };
-    let prepared = Prepared::new(scene, starts)?;
+    let prepared = Prepared::new(scene, most_starts(quick))?;
     let least_ms = scene.least_step_ms[usize::from(!quick)];
     let mut rows = Vec::new();
     for method in report::all_methods() {

@@ -6,8 +6,9 @@ use super::csv;
 use super::figure;
 use super::left_out::{COMPARED_S, Line};
 use super::measure::{Measured, Timed};
+use super::peers;
 use super::stability::Table;
-use hapticbillard::report::{self, Status};
+use hapticbillard::report::{self, Peers, Status};
 use hapticbillard::scene::PlanKind;
 use hapticbillard_actors::files::{new_recording_name, processor_name};
 use std::fmt::Write;
@@ -26,12 +27,21 @@ macro_rules! say {
 use say;
 
 /// The whole page.
-pub fn page(measured: &[Measured], table: &Table, left_out: &[Line], quick: bool) -> String {
+pub fn page(
+    measured: &[Measured],
+    peers: Option<&Peers>,
+    table: &Table,
+    left_out: &[Line],
+    quick: bool,
+) -> String {
     let mut text = String::new();
     head(&mut text, quick);
     overview(&mut text, measured);
+    if let Some(peers) = peers {
+        peers::chapter(&mut text, measured, peers);
+    }
     for scene in measured {
-        chapter(&mut text, scene);
+        chapter(&mut text, scene, peers);
     }
     stability::chaos(&mut text, table);
     stability::chapter(&mut text, table);
@@ -145,11 +155,11 @@ fn overview(text: &mut String, measured: &[Measured]) {
 }
 
 /// An error as a number.
-pub(super) fn error(value: Option<f64>) -> String {
+pub fn error(value: Option<f64>) -> String {
     value.map_or_else(|| String::from("-"), |value| format!("{value:.1e}"))
 }
 
-fn chapter(text: &mut String, scene: &Measured) {
+fn chapter(text: &mut String, scene: &Measured, peers: Option<&Peers>) {
     let prepared = &scene.prepared;
     let about = &prepared.scene;
     say!(text, "## {}\n", about.title);
@@ -202,7 +212,13 @@ fn chapter(text: &mut String, scene: &Measured) {
             if remark.is_empty() { "" } else { ": " },
         );
     }
+    if let Some(peers) = peers {
+        peers::lines(text, scene, peers, &SHOWN_MS);
+    }
     say!(text, "\n{}\n", reading(scene));
+    if let Some(front) = peers.and_then(|peers| peers::front(scene, peers)) {
+        say!(text, "{front}\n");
+    }
 }
 
 /// What a scene's rows say.

@@ -158,7 +158,7 @@ fn of_scene(args: &SimulateArgs, stage: &Stage, count: u32) -> Result<Group, Err
 }
 
 fn stepper(settings: &PhysicsSettings) -> PhysicsSettings {
-    PhysicsSettings { solver: SolverKind::FixedStep, ..settings.clone() }
+    PhysicsSettings { solver: SolverKind::FixedStep, flight: true, ..settings.clone() }
 }
 
 /// Breaks and small shots on the nine-foot table, and on what is left of it when a scene needs
@@ -182,6 +182,8 @@ fn on_table(
 ) -> Result<Vec<Group>, Error> {
     let mut settings = PhysicsSettings::default();
     super::override_physics(args, &mut settings);
+    // Where there is nothing to fall from, the exact solver leaves flight out.
+    settings.flight = settings.solver == SolverKind::FixedStep || !table.mesh.faces.is_empty();
     let empty = Simulation::from_parts(table, Vec::new(), &settings)?;
     let stepper = match settings.solver {
         SolverKind::FixedStep => None,

@@ -128,7 +128,7 @@ impl EventDriven {
             return;
         };
         let lift = start.velocity.dot(normal);
-        if lift > tolerance::hop_m_s(law.restitution, normal.z) {
+        if self.parameters.flight && lift > tolerance::hop_m_s(law.restitution, normal.z) {
             self.bodies[index].held.clear();
             let next = motion::free(&start, &self.bodies[index].ball, &self.parameters);
             self.turn_into(index, next);
