@@ -2,7 +2,6 @@
 //! between surfaces or leans on other balls.
 //!
 //! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
-//! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
 //! of its own, [`super::pivot`]; all others go on one grid of
 //! [`lasting_step_s`](crate::physics::ExactTolerances). There a step takes every contact without
 //! restitution and with Coulomb's friction, solved jointly. Either way it emits the quadratic
@@ -10,6 +9,9 @@
 //! Normals turn within a step; what that adds or takes is put right by holding the energy of a ball
 //! that leans on nothing else to what friction leaves of it. Error: second order in the step for a
 //! single contact; else first, for the moment of leaving.
+
+mod lie;
+mod single;
 
 use super::EventDriven;
 use super::predict::Changed;
