@@ -5,7 +5,7 @@ use crate::physics::event_driven::EventDriven;
 use crate::physics::event_driven::segment::Course;
 use crate::physics::event_driven::terrain::Feature;
 use crate::physics::laws::Mover;
-use crate::physics::{spring, tolerance};
+use crate::physics::spring;
 use glam::DVec3;
 
 impl EventDriven {
