@@ -23,6 +23,8 @@ mod rules;
 
 mod validate;
 
+mod haptic;
+
 mod report;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
@@ -70,6 +72,7 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     Rules(rules::RulesArgs),
     Validate(validate::ValidateArgs),
+    Haptic(haptic::HapticArgs),
     Report(report::ReportArgs),
 }
 
@@ -125,6 +128,7 @@ pub fn run() -> ExitCode {
         Command::Scenes(args) => scenes::run(&args, &mut out),
         Command::Rules(args) => rules::run(&args, &mut out),
         Command::Validate(args) => validate::run(&args, &mut out),
+        Command::Haptic(args) => haptic::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {

@@ -29,6 +29,8 @@ pub mod rack;
 
 pub mod scene;
 
+pub mod haptic;
+
 pub mod shipped;
 
 pub mod event_manager;

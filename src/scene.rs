@@ -66,6 +66,8 @@ pub struct Scene {
     pub camera: Option<CameraSection>,
     /// `[renderer]`
     pub renderer: Option<RendererSection>,
+    /// `[haptic]`
+    pub haptic: Option<HapticSection>,
     /// `[input]`
     pub input: Option<InputSection>,
     /// `[actors]`; without it everybody is real.
@@ -291,6 +293,53 @@ pub struct RendererSection {
     pub height: u32,
     /// Fills the whole screen.
     pub fullscreen: bool,
+}
+
+/// `[haptic]`: forces are felt at a device.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HapticSection {
+    /// Which device.
+    pub device: HapticDevice,
+    /// The processor core that the real-time thread asks for.
+    pub core: Option<u32>,
+    /// Its real-time priority, 1 to 99.
+    pub priority: Option<u32>,
+    /// How long before a deadline it stops sleeping and spins [µs].
+    pub spin_us: Option<u32>,
+}
+
+/// A haptic device, as scenes name it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum HapticDevice {
+    /// The first that is there, and the simulated one if there is none.
+    Auto,
+    /// A simulated device in a simulated hand.
+    Simulated,
+    /// The same; a mouse moves the hand.
+    Mouse,
+    /// A recording of a device, seen from the scene's folder.
+    Recorded(String),
+    /// A device of the OpenHaptics library, such as the PHANTOM Omni.
+    OpenHaptics,
+    /// A Haply Inverse3 at its service.
+    Haply,
+    /// None, although the scene could be felt.
+    None,
+}
+
+impl HapticDevice {
+    /// Its name in a scene.
+    pub fn name(&self) -> String {
+        match self {
+            HapticDevice::Auto => "auto".into(),
+            HapticDevice::Simulated => "simulated".into(),
+            HapticDevice::Mouse => "mouse".into(),
+            HapticDevice::Recorded(file) => format!("recorded:{file}"),
+            HapticDevice::OpenHaptics => "openhaptics".into(),
+            HapticDevice::Haply => "haply".into(),
+            HapticDevice::None => "none".into(),
+        }
+    }
 }
 
 /// `[input]`: mouse, keyboard and who stands in for them.

@@ -11,6 +11,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),
+    ("haptic_touch", include_str!("../config/scenes/haptic_touch.toml")),
 ];
 
 /// The meshes of scenes, by file name: the text of `config/scenes/NAME`.
@@ -19,6 +20,9 @@ pub const MESHES: &[(&str, &str)] =
 
 /// The catalogue of cases with known answers.
 pub const CASES: &str = include_str!("../config/validation/cases.json");
+
+/// The same for the haptic renderer.
+pub const HAPTIC_CASES: &str = include_str!("../config/validation/haptic_cases.json");
 
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {

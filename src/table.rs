@@ -23,6 +23,8 @@ mod clearance;
 
 mod display;
 
+mod trim;
+
 pub use display::{DisplayPart, Material};
 pub use parameters::{PocketParameters, TableParameters};
 

@@ -19,6 +19,7 @@ mod claims;
 mod cue_strike;
 mod flight;
 mod free;
+mod haptic;
 mod impacts;
 mod learner;
 mod on_mesh;
@@ -73,6 +74,14 @@ fn observe(
         "push_out" => step_2009::push_out(setup),
         "learner" => learner::observe(setup),
         "late_detection" => step_2009::late_detection(setup),
+        "stability_limit_by_bisection" => haptic::stability_limit(setup),
+        "bounce_gain" => haptic::bounce_gain(setup),
+        "energy_observer" => haptic::energy_observer(setup),
+        "wall_settles" => haptic::wall_settles(setup),
+        "passivity_controller" => haptic::passivity_controller(setup),
+        "strike_repeatability" => haptic::strike_repeatability(setup),
+        "hold_still" => haptic::hold_still(setup),
+        "divergence_sign" => haptic::divergence_sign(setup),
         other => Err(Trouble::Unsupported(format!("this build has no runner for {other}"))),
     }
 }

@@ -52,16 +52,45 @@ fn solver(name: &str) -> Result<SolverKind, String> {
 
 /// Runs the cases.
 pub fn run(args: &ValidateArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    let (name, text) = match &args.cases {
+    let judged = Judged {
+        cases: args.cases.as_ref(),
+        shipped: shipped::CASES,
+        solver: args.solver,
+        only: &args.only,
+        json: args.json,
+        command: "validate",
+    };
+    judge(&judged, out)
+}
+
+/// A catalogue, and how it is run.
+pub struct Judged<'a> {
+    /// The file; without it the shipped text.
+    pub cases: Option<&'a PathBuf>,
+    /// What is compiled in.
+    pub shipped: &'static str,
+    /// The solver of the cases that move balls.
+    pub solver: Option<SolverKind>,
+    /// Only these cases, if there are any.
+    pub only: &'a [String],
+    /// Prints JSON lines.
+    pub json: bool,
+    /// The command that somebody typed.
+    pub command: &'static str,
+}
+
+/// Runs the cases of a catalogue and prints a row for each.
+pub fn judge(judged: &Judged<'_>, out: &mut dyn Write) -> Result<Status, Error> {
+    let (name, text) = match judged.cases {
         Some(file) => (file.display().to_string(), read_text(file, CASES_BYTES_MAX)?),
-        None => (String::from("the shipped catalogue"), shipped::CASES.to_string()),
+        None => (String::from("the shipped catalogue"), judged.shipped.to_string()),
     };
     let wrong = |error: validation::CatalogueError| {
         Error::input(&*name, error.to_string(), "see the shipped catalogue for the format")
     };
     let mut catalogue = Catalogue::parse(&text).map_err(wrong)?;
-    choose(&mut catalogue, &args.only)?;
-    let solver = args.solver.unwrap_or(hapticbillard::physics::PhysicsSettings::default().solver);
+    choose(&mut catalogue, judged)?;
+    let solver = judged.solver.unwrap_or(hapticbillard::physics::PhysicsSettings::default().solver);
 
     let bar = progress(catalogue.cases.len() as u64, "cases");
     let (mut pass, mut fail, mut unsupported) = (0, 0, 0);
@@ -74,11 +103,11 @@ pub fn run(args: &ValidateArgs, out: &mut dyn Write) -> Result<Status, Error> {
             validation::Status::Fail => fail += 1,
             validation::Status::Unsupported => unsupported += 1,
         }
-        bar.suspend(|| print(args, case, &outcome, cpu_ms, out))?;
+        bar.suspend(|| print(judged.json, case, &outcome, cpu_ms, out))?;
         bar.inc(1);
     }
     bar.finish_and_clear();
-    if args.json {
+    if judged.json {
         let summary = json!({ "pass": pass, "fail": fail, "unsupported": unsupported });
         json_line(out, &json!({ "summary": summary }))?;
     } else {
@@ -88,15 +117,13 @@ pub fn run(args: &ValidateArgs, out: &mut dyn Write) -> Result<Status, Error> {
 }
 
 /// Keeps the cases that were asked for, in the order of the file.
-fn choose(catalogue: &mut Catalogue, only: &[String]) -> Result<(), Error> {
+fn choose(catalogue: &mut Catalogue, judged: &Judged<'_>) -> Result<(), Error> {
+    let only = judged.only;
     for id in only {
         if !catalogue.cases.iter().any(|case| case.id == *id) {
             let problem = format!("there is no case '{}'", id.escape_default());
-            return Err(Error::input(
-                "--only",
-                problem,
-                "see `hapticbillard validate` for the ids",
-            ));
+            let fix = format!("see `hapticbillard {}` for the ids", judged.command);
+            return Err(Error::input("--only", problem, &fix));
         }
     }
     if !only.is_empty() {
@@ -106,13 +133,13 @@ fn choose(catalogue: &mut Catalogue, only: &[String]) -> Result<(), Error> {
 }
 
 fn print(
-    args: &ValidateArgs,
+    json: bool,
     case: &Case,
     outcome: &Outcome,
     cpu_ms: f64,
     out: &mut dyn Write,
 ) -> Result<(), Error> {
-    if args.json {
+    if json {
         let mut line = serde_json::to_value(outcome).map_err(std::io::Error::from)?;
         line["cpu_ms"] = json!(cpu_ms);
         return json_line(out, &line);

@@ -31,6 +31,7 @@ impl Scene {
     pub fn plan(&self) -> Vec<PlanLine> {
         let mut plan = Plan { lines: Vec::new() };
         self.actors_of_plan(&mut plan);
+        self.haptic_of_plan(&mut plan);
         self.terms_of_plan(&mut plan);
         // Stable: within a kind the order of the calls stays.
         plan.lines.sort_by_key(|line| line.kind as u8);
@@ -81,6 +82,22 @@ impl Scene {
                 plan.add(PlanKind::Actor, "renderer", &detail);
             }
             None => plan.left_out("renderer", "the scene has no [renderer]"),
+        }
+    }
+
+    /// Without `[haptic]` no servo, no mesh for it and no thread exist.
+    fn haptic_of_plan(&self, plan: &mut Plan) {
+        match &self.haptic {
+            // The servo is a core without a thread so far.
+            Some(haptic) => {
+                let device = haptic.device.name();
+                let why = format!(
+                    "device {device} is asked for, but nothing runs a servo in a game yet; \
+                     `haptic simulate` runs the same servo"
+                );
+                plan.left_out("haptic", &why);
+            }
+            None => plan.left_out("haptic", "the scene has no [haptic]"),
         }
     }
 

@@ -10,9 +10,9 @@ use glam::DQuat;
 use toml::de::DeTable;
 
 /// The sections in the order in which a reader expects them.
-const SECTIONS: [&str; 15] = [
+const SECTIONS: [&str; 16] = [
     "scene", "physics", "table", "mesh", "plane", "box", "balls", "ball", "cue", "rules", "player",
-    "camera", "renderer", "input", "actors",
+    "camera", "renderer", "haptic", "input", "actors",
 ];
 
 const PLACE: Limits = Limits { low: -1000.0, high: 1000.0, unit: "(m)", example: "0.0" };
@@ -51,6 +51,7 @@ pub(super) fn parse(file_name: &str, text: &str) -> Result<Scene, SceneError> {
         players: each(&root, "player", 2, player)?,
         camera: empty(&root, "camera")?.then_some(CameraSection),
         renderer: root.section("renderer")?.map(|section| renderer(&section)).transpose()?,
+        haptic: root.section("haptic")?.map(|section| haptic(&section)).transpose()?,
         input: root.section("input")?.map(|section| input(&section)).transpose()?,
         actors: root.section("actors")?.map(|section| actors(&section)).transpose()?,
     };
@@ -471,6 +472,43 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
         width: pixels("width", 1280)?,
         height: pixels("height", 720)?,
         fullscreen: section.switch("fullscreen")?.unwrap_or(false),
+    })
+}
+
+fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
+    section.allow(&["device", "core", "priority", "spin_us"])?;
+    let devices: [(&[&str], HapticDevice); 6] = [
+        (&["auto"], HapticDevice::Auto),
+        (&["simulated"], HapticDevice::Simulated),
+        (&["mouse"], HapticDevice::Mouse),
+        (&["openhaptics"], HapticDevice::OpenHaptics),
+        (&["haply"], HapticDevice::Haply),
+        (&["none"], HapticDevice::None),
+    ];
+    let choices: Vec<(&[&'static str], usize)> =
+        devices.iter().enumerate().map(|(i, (names, _))| (*names, i)).collect();
+    let file = section.text("device", "auto").ok().flatten();
+    let file = file.as_deref().and_then(|text| text.strip_prefix("recorded:"));
+    let device = match file {
+        Some("") => {
+            let (allowed, fix) =
+                ("names no recording", "write for example device = \"recorded:stylus.jsonl\"");
+            return Err(section.error("device", allowed, fix));
+        }
+        Some(file) => HapticDevice::Recorded(file.to_string()),
+        None => {
+            let chosen = section.choice("device", &choices)?.unwrap_or(0);
+            devices[chosen].1.clone()
+        }
+    };
+    let number = |key, range| -> Result<Option<u32>, SceneError> {
+        Ok(section.integer(key, range)?.and_then(|number| u32::try_from(number).ok()))
+    };
+    Ok(HapticSection {
+        device,
+        core: number("core", 0..=1023)?,
+        priority: number("priority", 1..=99)?,
+        spin_us: number("spin_us", 0..=1000)?,
     })
 }
 

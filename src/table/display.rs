@@ -172,6 +172,11 @@ fn body(table: &TableParameters) -> Vec<DisplayPart> {
         .to_vec()
 }
 
+/// Metal trims of the pockets, as bare triangles [m].
+pub(super) fn castings(table: &TableParameters) -> Vec<[DVec3; 3]> {
+    furniture::castings(table).into_iter().map(|triangle| triangle.corners).collect()
+}
+
 /// Whether a triangle of the rails' top belongs to a short rail, whose grain runs along y.
 fn runs_across(corners: &[DVec3; 3], noses: DVec2) -> bool {
     let middle = (corners[0] + corners[1] + corners[2]).truncate().abs() / 3.0 - noses;

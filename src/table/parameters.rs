@@ -5,6 +5,7 @@
 
 use super::TableError;
 use crate::one_line::one_line;
+use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 /// What is wrong with a text, and in which line. The parser's own message has several lines.
@@ -103,6 +104,24 @@ impl TableParameters {
     /// Half the outer width of the table along y [m].
     pub fn outer_y_m(&self) -> f64 {
         0.5 * self.width_m + self.rail_width_m
+    }
+
+    /// The middles of the eighteen sights, six on each long rail and three on each short one, with
+    /// the unit vector across the rail [m].
+    pub(super) fn sights(&self) -> Vec<(DVec2, DVec2)> {
+        let line =
+            0.5 * DVec2::new(self.length_m, self.width_m) + DVec2::splat(self.diamond_from_nose_m);
+        let pitch = self.diamond_pitch_m;
+        let mut sights = Vec::new();
+        for sign in [-1.0, 1.0] {
+            for k in [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0] {
+                sights.push((DVec2::new(k * pitch, sign * line.y), DVec2::Y));
+            }
+            for k in [-1.0, 0.0, 1.0] {
+                sights.push((DVec2::new(sign * line.x, k * pitch), DVec2::X));
+            }
+        }
+        sights
     }
 
     /// Whether every number lies where a table can be built from it.

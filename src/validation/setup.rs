@@ -28,7 +28,7 @@ impl Setup<'_> {
         CatalogueError::case(self.id, key, problem, fix)
     }
 
-    fn get<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, CatalogueError> {
+    pub fn get<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, CatalogueError> {
         let Some(value) = self.values.get(key) else { return Ok(None) };
         match serde_json::from_value(value.clone()) {
             Ok(value) => Ok(Some(value)),
@@ -36,7 +36,7 @@ impl Setup<'_> {
         }
     }
 
-    fn need<T>(&self, key: &str, value: Option<T>) -> Result<T, CatalogueError> {
+    pub fn need<T>(&self, key: &str, value: Option<T>) -> Result<T, CatalogueError> {
         value.ok_or_else(|| self.error(key, "missing", "this kind of run needs it"))
     }
 
@@ -299,7 +299,7 @@ impl Setup<'_> {
         for key in self.values.keys() {
             match key.as_str() {
                 "balls" if self.values["balls"].is_array() => drop(self.balls()?),
-                "balls" | "faces" | "delay_samples" => drop(self.count(key)?),
+                "balls" | "faces" | "delay_samples" | "phases" | "ticks" => drop(self.count(key)?),
                 "walls" => drop(self.walls()?),
                 "plane" => drop(self.plane()?),
                 "cylinders" => drop(self.cylinders()?),
@@ -315,12 +315,15 @@ impl Setup<'_> {
                 "subdivisions" => drop(self.counts(key)?),
                 "seeds" | "shots" => drop(self.count(key)?),
                 "topspin_over_rolling" => drop(self.topspin()?),
+                "hand" => drop(self.hand()?),
+                "push" => drop(self.push()?),
+                "transient" => drop(self.transient()?),
                 key if key.contains("_range_") || key == "f_band" => {
                     self.range(key)?;
                 }
                 "hit_counts_outliers" => drop(self.switch(key)?),
                 "two_sided" => drop(self.switch(key)?),
-                "profile" | "law" => drop(self.word(key)?),
+                "profile" | "law" | "limit_of" => drop(self.word(key)?),
                 "gravity_m_s2" | "mirror_normal" | "axis" => drop(self.vector(key)?),
                 "mass_kg" | "velocity_start_m_s" | "sample_time_s" | "frame_s" | "K_test_N_m" => {
                     drop(self.numbers(key)?);

@@ -11,6 +11,8 @@ mod event_driven;
 mod event_manager;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
+/// What a hand feels.
+mod haptic;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
 /// Minigolf: another ground, ball and tip.

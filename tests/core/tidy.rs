@@ -6,12 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
-const LAYERS: [&[&str]; 14] = [
+const LAYERS: [&[&str]; 15] = [
     &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped", "one_line"],
     &["table", "rack"],
     &["physics"],
     // A scene holds the settings of the physics that it asks for.
     &["scene"],
+    // What a hand feels: contact laws, tables and cue, nothing of a game.
+    &["haptic"],
     // The order of a tick: what is delivered when, and how it is written down.
     &["event_manager", "tick", "replay"],
     &["rules"],

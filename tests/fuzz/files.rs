@@ -193,9 +193,23 @@ const CATALOGUE_WORDS: [&str; 10] = [
 
 /// The shipped cases that need no solver and little time, one a line and key.
 fn small_cases() -> Vec<String> {
-    let shipped: serde_json::Value = serde_json::from_str(shipped::CASES).unwrap();
-    let solved = ["single_ball", "balls_free", "ball_mesh", "flight", "static", "table_shot"];
-    let cases = shipped["cases"].as_array().unwrap().iter().filter(|case| {
+    let mut shipped: Vec<serde_json::Value> = Vec::new();
+    for text in [shipped::CASES, shipped::HAPTIC_CASES] {
+        let mut catalogue: serde_json::Value = serde_json::from_str(text).unwrap();
+        shipped.append(catalogue["cases"].as_array_mut().unwrap());
+    }
+    let solved = [
+        "single_ball",
+        "balls_free",
+        "ball_mesh",
+        "flight",
+        "static",
+        "table_shot",
+        // Many loops each.
+        "stability",
+        "strike",
+    ];
+    let cases = shipped.iter().filter(|case| {
         let kind = case["kind_of_run"].as_str().unwrap();
         !solved.iter().any(|name| kind.starts_with(name))
             && case["setup"].get("break_scene").is_none()

@@ -68,7 +68,10 @@ fn every_command_teaches_with_an_example() {
         );
         assert!(help.contains("Examples:"), "{help}");
     }
+    let help = program(&["haptic", "simulate", "--help"]);
+    assert!(text(&help.stdout).contains("Examples:\n  hapticbillard haptic simulate"), "{help:?}");
     let help = program(&["--help"]);
+    assert!(text(&help.stdout).contains("haptic"));
     assert!(commands.iter().all(|command| text(&help.stdout).contains(command)));
 }
 
@@ -129,7 +132,7 @@ fn a_wrong_scene_is_one_line_on_stderr() {
     refused(
         &["scene", "banana"],
         "there is no scene 'banana': write a file or one of eight_ball, eight_ball_headless, \
-         free_play, break_shot, one_ball, minigolf",
+         free_play, break_shot, one_ball, minigolf, haptic_touch",
     );
 }
 

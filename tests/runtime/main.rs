@@ -12,6 +12,8 @@ mod cli;
 mod facts;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// The haptic renderer on the bench.
+mod haptic;
 /// What `--json` prints, and what options change.
 mod json;
 /// Who stands in for whom.

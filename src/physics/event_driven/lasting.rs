@@ -2,7 +2,7 @@
 //! between surfaces or leans on other balls.
 //!
 //! Only the balls concerned are stepped. One with a single contact, an edge or a slope, has a law
-//! of its own, [`Pivot`]; all others go on one grid of
+//! of its own, [`super::pivot`]; all others go on one grid of
 //! [`lasting_step_s`](crate::physics::ExactTolerances). There a step takes every contact without
 //! restitution and with Coulomb's friction, solved jointly. Either way it emits the quadratic
 //! through the velocities at both ends, so that detection, queue and impacts stay as they are.
@@ -10,9 +10,10 @@
 //! that leans on nothing else to what friction leaves of it. Error: second order in the step for a
 //! single contact; else first, for the moment of leaving.
 
+mod lie;
+mod single;
+
 use super::EventDriven;
-use super::motion::{self, Start};
-use super::pivot::{Base, Pivot};
 use super::predict::Changed;
 use super::segment::{Course, Segment};
 use super::swing;
@@ -20,7 +21,7 @@ use super::terrain::Feature;
 use crate::physics::laws::Mover;
 use crate::physics::laws::cloth::{self, Carrying};
 use crate::physics::laws::cluster::{self, Touch};
-use crate::physics::{Contact as Law, PhysicsError, spring, tolerance};
+use crate::physics::{Contact as Law, PhysicsError, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -292,107 +293,6 @@ impl EventDriven {
         }
     }
 
-    /// What a ball touches; lays it on that exactly and turns its velocity along it.
-    fn lie_on(&mut self, index: usize) -> Contacts {
-        let body = &self.bodies[index];
-        let (radius, mut centre) = (body.ball.radius_m, body.segment.position);
-        let mut velocity = body.segment.velocity;
-        let parts = |(_, normal, _): &(Feature, DVec3, f64), v: DVec3| v.dot(*normal) > PARTS_M_S;
-        let reach = radius + 4.0 * TOUCH_M;
-        let mut contacts: Contacts = self.terrain.near(centre, reach);
-        contacts.retain(|contact| !parts(contact, velocity));
-        for (_, normal, distance) in &contacts {
-            centre += *normal * (radius - distance);
-        }
-        if contacts.len() > 1 {
-            // Moving out of one may move into another.
-            for (_, normal, distance) in self.terrain.near(centre, radius) {
-                centre += normal * (radius - distance).max(0.0);
-            }
-        }
-        centre = self.beside_others(index, centre);
-        let body = &self.bodies[index];
-        if let [(_, normal, _)] = contacts[..] {
-            // Along the surface, if gravity or a spring holds it there.
-            let s = &body.segment;
-            let pull = body.ball.spring.as_ref().map_or(DVec3::ZERO, |own| {
-                let (x, w) = (s.orientation, s.angular_velocity);
-                spring::acceleration(&body.ball, own, centre, velocity, x, w).0
-            });
-            let weight = DVec3::NEG_Z * self.parameters.gravity_m_s2;
-            let kick = (weight + pull).dot(normal) * self.parameters.exact.lasting_step_s;
-            let out = velocity.dot(normal);
-            if out + kick < 0.0 {
-                let along = velocity - normal * out;
-                velocity = along.normalize_or_zero() * velocity.length();
-            } else {
-                contacts.clear();
-            }
-        } else {
-            for (_, normal, _) in &contacts {
-                velocity -= *normal * velocity.dot(*normal).min(0.0);
-            }
-        }
-
-        // The energy that friction has left, for a ball that leans on nothing but the terrain.
-        let body = &self.bodies[index];
-        let (mass, g) = (body.ball.mass_kg, self.parameters.gravity_m_s2);
-        let before = Mover::new(&body.ball, body.segment.velocity, body.segment.angular_velocity);
-        // It rises no more than its motion can pay for.
-        let rise = centre - body.segment.position;
-        let cost = mass * g * rise.z;
-        if cost > before.kinetic_j() {
-            centre = body.segment.position + rise * (before.kinetic_j() / cost);
-        }
-        let kinetic = Mover { velocity, ..before }.kinetic_j();
-        let wanted = body.target_j - mass * g * centre.z;
-        let mut factor = 1.0;
-        if kinetic > 1e-12 && wanted.is_finite() {
-            let ratio = (wanted / kinetic).clamp(0.0, 1.0 + 1e-2);
-            factor = if contacts.len() == 1 { ratio.sqrt() } else { ratio.min(1.0).sqrt() };
-        } else if wanted.is_infinite() {
-            // At the start nothing may be gained.
-            let had = before.kinetic_j() + mass * g * body.segment.position.z;
-            let ratio = ((had - mass * g * centre.z) / kinetic.max(1e-300)).clamp(0.0, 1.0);
-            factor = ratio.sqrt();
-        }
-        let spin = body.segment.angular_velocity * factor;
-        velocity *= factor;
-        let after = Mover { velocity, angular_velocity: spin, ..before };
-        self.ledger.integration_j += after.kinetic_j() - before.kinetic_j()
-            + mass * g * (centre.z - body.segment.position.z);
-        self.ledger.momentum.table += mass * (velocity - before.velocity);
-        let body = &mut self.bodies[index];
-        body.segment.position = centre;
-        body.segment.velocity = velocity;
-        body.segment.angular_velocity = spin;
-        contacts
-    }
-
-    /// Where a ball is laid that should be at `centre`, so that it is not laid into another: that
-    /// is a micrometre or two, and the surface waits. On one that it stands on it lies all the
-    /// same.
-    fn beside_others(&self, index: usize, mut centre: DVec3) -> DVec3 {
-        let body = &self.bodies[index];
-        let (at, from) = (body.segment.start_s, body.segment.position);
-        for (other, path) in self.paths.iter().enumerate() {
-            let reach = path.radius_m + body.ball.radius_m;
-            let near = centre.distance(self.centre_at(other, at)) <= reach;
-            if other == index || !path.solid || !near {
-                continue;
-            }
-            let segment = &self.bodies[other].segment;
-            let there = segment.position_at(at);
-            let line = centre - there;
-            let carries = line.z * line.z > 0.75 * line.length_squared();
-            let into = from.distance(there).min(reach) - line.length();
-            if into > 0.0 && !(carries && segment.course == Course::Lasting) {
-                centre += line.normalize_or_zero() * into;
-            }
-        }
-        centre
-    }
-
     /// Pairs of a group that lean on each other.
     fn leaning_pairs(&self, group: &[usize]) -> SmallVec<[(usize, usize, DVec3); 8]> {
         let mut pairs = SmallVec::new();
@@ -409,94 +309,6 @@ impl EventDriven {
             }
         }
         pairs
-    }
-
-    /// Lets a ball go on by closed forms, if there are any for what holds it.
-    fn leave_lasting(&mut self, index: usize, contacts: &Contacts) -> bool {
-        let segment = self.bodies[index].segment;
-        match contacts[..] {
-            [] => {
-                self.bodies[index].held.clear();
-                let next = motion::free(&segment, &self.bodies[index].ball, &self.parameters);
-                self.turn_into(index, next);
-                true
-            }
-            [(feature @ (Feature::Plane(_) | Feature::Patch(_)), normal, _)] => {
-                let law = self.parameters.surface(self.terrain.surface(feature));
-                let start = Start { segment, normal, friction: law.friction, hops_s: 0.0 };
-                let ball = &self.bodies[index].ball;
-                let Some(next) = motion::carried(&start, ball, &self.parameters) else {
-                    return false;
-                };
-                self.bodies[index].held = SmallVec::from_slice(&[feature]);
-                self.book_slip(index, &segment, &next);
-                self.turn_into(index, next);
-                true
-            }
-            [(feature @ Feature::Edge(_), normal, _)] => {
-                let body = &self.bodies[index];
-                let pivot = self.pivot(feature, normal);
-                let radius = body.ball.radius_m;
-                let leaves = pivot.press(segment.position, segment.velocity, radius) <= 0.0;
-                if leaves {
-                    let next = motion::free(&segment, &body.ball, &self.parameters);
-                    self.bodies[index].held.clear();
-                    self.turn_into(index, next);
-                }
-                leaves
-            }
-            _ => false,
-        }
-    }
-
-    fn pivot(&self, feature: Feature, normal: DVec3) -> Pivot {
-        let base = match feature {
-            Feature::Edge(edge) => {
-                let edge = &self.terrain.edges[edge as usize];
-                Base::Edge { from: edge.from, along: edge.along, length_m: edge.length_m }
-            }
-            _ => Base::Slope { normal },
-        };
-        let surface = self.terrain.surface(feature);
-        let law = Carrying {
-            friction: self.parameters.surface(surface).friction,
-            rolling_resistance: self.parameters.rolling_resistance,
-            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
-        };
-        Pivot { base, law, gravity_m_s2: self.parameters.gravity_m_s2 }
-    }
-
-    /// The next piece of a ball that touches a single edge or slope and nothing else.
-    fn single_contact(&mut self, at: Seconds, index: usize, contacts: &Contacts) -> bool {
-        let [(feature, normal, _)] = contacts[..] else { return false };
-        let body = &self.bodies[index];
-        let flags = &body.ball.flags;
-        let weighs = flags.gravity && flags.integrate;
-        if !weighs || body.ball.spring.is_some() || matches!(feature, Feature::Corner(_)) {
-            return false;
-        }
-        let from = body.segment;
-        let start = Mover::new(&body.ball, from.velocity, from.angular_velocity);
-        let pivot = self.pivot(feature, normal);
-        let Some(step) = pivot.step(from.position, &start) else { return false };
-        let height_j = body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
-        let body = &mut self.bodies[index];
-        body.target_j = start.kinetic_j() + height_j - step.loss_j;
-        body.held = SmallVec::from_slice(&[feature]);
-        body.quiet_since = at;
-        body.leans = false;
-        let rate = 1.0 / step.length_s;
-        body.turn_into(Segment {
-            end_s: at + step.length_s,
-            acceleration: (step.end.velocity - from.velocity) * rate,
-            angular_acceleration: (step.end.angular_velocity - from.angular_velocity) * rate,
-            normal,
-            spin_deceleration: 0.0,
-            course: Course::Lasting,
-            ..from
-        });
-        self.note_track(index);
-        true
     }
 
     /// What friction takes from each ball in a step [J]; applies rolling resistance.

@@ -56,7 +56,7 @@ fn mirrored(quarter: &[DisplayTriangle]) -> Vec<DisplayTriangle> {
 }
 
 /// Metal trims round the back of the pockets: a plate on the rail with a collar into the hole.
-fn castings(table: &TableParameters) -> Vec<DisplayTriangle> {
+pub(super) fn castings(table: &TableParameters) -> Vec<DisplayTriangle> {
     let mut triangles = Vec::new();
     casting(&mut triangles, table, &table.corner, corner_centre(table), FRAC_PI_4, -1.0);
     casting(&mut triangles, table, &table.side, side_centre(table), FRAC_PI_2, 0.0);
@@ -139,16 +139,7 @@ fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
         let rim = [across, along, -across, -along, across].map(|p| (centre + p).extend(z));
         fan(&mut triangles, centre.extend(z), &rim);
     };
-    let line =
-        0.5 * DVec2::new(table.length_m, table.width_m) + DVec2::splat(table.diamond_from_nose_m);
-    for sign in [-1.0, 1.0] {
-        for k in [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0] {
-            add(DVec2::new(k * table.diamond_pitch_m, sign * line.y), DVec2::Y);
-        }
-        for k in [-1.0, 0.0, 1.0] {
-            add(DVec2::new(sign * line.x, k * table.diamond_pitch_m), DVec2::X);
-        }
-    }
+    table.sights().into_iter().for_each(|(centre, across)| add(centre, across));
     triangles
 }
 

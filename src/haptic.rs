@@ -1,0 +1,55 @@
+//! The haptic renderer: what a hand feels of cue and table, computed once per millisecond.
+//!
+//! [`Servo::tick`] is the whole of it: a pure function of its own state, of what the device says
+//! and of the newest [`HapticScene`]. Whoever has a clock calls it: a real-time thread, the
+//! callback of a vendor's library, or a test. It never allocates, locks, logs, blocks or panics.
+//!
+//! Two frames. The *device frame* has its origin in the middle of the workspace, x to the right, y
+//! up, z towards the user [m]; effects, devices and forces live in it. The *world* is the game's,
+//! z up; balls, table and tip live in it. The [`Reach`] says how one is laid into the other.
+//!
+//! The servo sends no impulse to the physics. The truth of a stroke is physics', which follows the
+//! [`StylusSample`]s; the servo solves the same contact with the same law for the hand alone.
+
+mod device;
+mod effect;
+mod report;
+mod scene;
+mod settings;
+
+mod servo;
+
+mod world;
+
+mod reach;
+
+mod tip;
+
+mod mesh;
+mod obstacles;
+mod proxy;
+
+mod strike;
+mod transient;
+
+mod effect_force;
+
+mod safety;
+
+pub mod simulated;
+
+mod rehearsal;
+
+pub mod telemetry;
+
+pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
+pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
+pub use mesh::HapticMesh;
+pub use rehearsal::Rehearsal;
+pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
+pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
+pub use servo::Servo;
+pub use settings::{
+    CouplingSettings, ReachSettings, SafetySettings, ServoSettings, TransientSettings,
+    stiffness_for,
+};

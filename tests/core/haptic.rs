@@ -1,0 +1,13 @@
+//! The haptic renderer: closed loops, effects, safety, strokes.
+
+mod allocation;
+mod cases;
+mod effects;
+mod guard;
+mod mouse;
+mod rig;
+mod section;
+mod strokes;
+mod touch;
+mod walls;
+mod workspace;

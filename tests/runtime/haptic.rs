@@ -1,0 +1,63 @@
+//! `haptic simulate`: cases and strokes as a script sees them.
+
+use crate::cli::{folder, lines, program, text};
+use std::fs;
+
+#[test]
+fn cases_are_rows_and_a_summary() {
+    let output = program(&["haptic", "simulate", "--only", "H7", "H13", "--json"]);
+    assert!(output.status.success(), "{output:?}");
+    let lines = lines(&output.stdout);
+    assert_eq!(lines.len(), 3);
+    for (line, id) in lines.iter().zip(["H7", "H13"]) {
+        assert_eq!([&line["id"], &line["status"]], [id, "pass"]);
+        assert!(line["key"].is_string() && line["error"].is_number() && line["limit"].is_number());
+    }
+    assert_eq!(lines[2]["summary"]["pass"], 2);
+    let wrong = program(&["haptic", "simulate", "--only", "H99"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(text(&wrong.stderr).contains("see `hapticbillard haptic simulate` for the ids"));
+}
+
+#[test]
+fn a_file_of_cases_is_judged_by_what_it_says() {
+    let folder = folder("haptic_cases");
+    let file = folder.join("cases.json");
+    let case = |id: &str, ratio: f64| {
+        format!(
+            r#"{{"id": "{id}", "kind_of_run": "bounce_gain", "setup": {{"m_kg": 0.1,
+            "K_N_m": 800, "T_s": 0.001, "speed_m_s": 0.3, "phases": 50}},
+            "expect": {{"speed_ratio": {ratio}}}, "tolerance": {{"rel": 0.01}}}}"#
+        )
+    };
+    // exp(pi T sqrt(K/m)/4) for a held force.
+    let text = format!("{{\"cases\": [{}, {}]}}", case("X1", 1.0728), case("X2", 1.2));
+    fs::write(&file, text).unwrap();
+    let output = program(&["haptic", "simulate", "--cases", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    let lines = lines(&output.stdout);
+    assert_eq!([&lines[0]["status"], &lines[1]["status"]], ["pass", "fail"]);
+}
+
+#[test]
+fn a_stroke_is_told_tick_by_tick() {
+    let folder = folder("haptic_stroke");
+    let file = folder.join("stroke.csv");
+    let path = file.to_str().unwrap();
+    let arguments =
+        ["haptic", "simulate", "--stroke", "1.0", "--hand", "arm", "--out", path, "--json"];
+    let output = program(&arguments);
+    let csv = fs::read_to_string(&file).unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let summary = &lines(&output.stdout)[0]["summary"];
+    let number = |key: &str| summary[key].as_f64().unwrap();
+    // Scale and gain make 5.5 m/s of a hand at 1 m/s.
+    assert!((number("tip_m_s") / 5.5 - 1.0).abs() < 0.02, "{summary}");
+    assert!(number("ball_m_s") > 7.0 && number("force_peak_n") <= 3.3, "{summary}");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert_eq!(rows.len() as f64, number("ticks") + 1.0);
+    let columns = rows[0].split(',').count();
+    assert!(rows.iter().all(|row| row.split(',').count() == columns));
+    let struck = rows.iter().filter(|row| row.contains("struck 0")).count();
+    assert_eq!(struck, 1);
+}
