@@ -57,6 +57,8 @@ pub struct Body {
     pub busy: (Seconds, u32),
     /// The part of the terrain that it met last.
     pub met: Option<Feature>,
+    /// In lasting contact: what else it met, and when [s].
+    pub brushed: Option<(Feature, Seconds)>,
     /// It sleeps on several supports or on other balls, and wakes when one of them changes.
     pub leans: bool,
     /// In lasting contact: since when it lies nearly still [s].
@@ -89,6 +91,7 @@ impl Body {
             held_rails: 0,
             busy: (0.0, 0),
             met: None,
+            brushed: None,
             leans: false,
             quiet_since: 0.0,
             target_j: 0.0,
@@ -126,6 +129,12 @@ impl Body {
     pub fn mover(&self, at: Seconds) -> Mover {
         let s = &self.segment;
         Mover::new(&self.ball, s.velocity_at(at), s.angular_velocity_at(at))
+    }
+
+    /// What it met just now besides what it lies on. To the last bit that may lie beyond the end
+    /// of it, and then it would be met again and again at one moment.
+    pub fn brushes(&self, at: Seconds) -> Option<Feature> {
+        self.brushed.filter(|(_, met)| *met == at).map(|(feature, _)| feature)
     }
 
     /// When its own event comes [s].

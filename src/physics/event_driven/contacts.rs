@@ -3,6 +3,7 @@
 use super::EventDriven;
 use super::lasting::TOUCH_M;
 use super::predict::Changed;
+use super::segment::Course;
 use super::sweep::Meeting;
 use super::terrain::Feature;
 use crate::ball::BallPlace;
@@ -70,6 +71,9 @@ impl EventDriven {
             _ => {}
         }
         self.work.contacts += 1;
+        if self.bodies[index].segment.course == Course::Lasting {
+            self.bodies[index].brushed = Some((feature, at));
+        }
         let members = self.cluster_of(at, &[index]);
         let mut mover = self.bodies[index].mover(at);
         let before = mover;

@@ -264,6 +264,8 @@ impl EventDriven {
             let hands_on = leans || body.ball.spring.is_some();
             body.target_j = if hands_on { f64::INFINITY } else { energy - lost[place] };
             body.held = kept[place].iter().map(|(feature, _, _)| *feature).collect();
+            let brushes = body.brushes(at).filter(|other| !body.held.contains(other));
+            body.held.extend(brushes);
             if moved > tolerance::REST_M_S {
                 body.quiet_since = at;
             }

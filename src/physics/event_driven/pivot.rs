@@ -136,7 +136,8 @@ impl Pivot {
 
     /// One step of `ball`, whose centre is at `position` and which touches the base. None if there
     /// is no such motion: the ball leaves, or is too slow for anything but resistance to matter.
-    pub fn step(&self, position: DVec3, ball: &Mover) -> Option<Step> {
+    /// The step is no longer than `longest_s`.
+    pub fn step(&self, position: DVec3, ball: &Mover, longest_s: Seconds) -> Option<Step> {
         let mut start = State {
             position,
             velocity: ball.velocity,
@@ -157,7 +158,7 @@ impl Pivot {
         let advance = |t: Seconds| self.runge_kutta(&start, &shape, sticks, t);
         let margin = |state: &State| self.margin(state, &shape, sticks, slips, &forces);
 
-        let length_s = self.longest(&forces, position, ball);
+        let length_s = self.longest(&forces, position, ball).min(longest_s);
         let mut end = advance(length_s);
         let mut length = length_s;
         let left = margin(&end);
@@ -334,7 +335,7 @@ mod tests {
         let energy = |mover: &Mover, z: f64| mover.kinetic_j() * mover.inverse_mass + G * z;
         let start = energy(&mover, position.z);
         let mut steps = 0;
-        while let Some(step) = pivot.step(position, &mover) {
+        while let Some(step) = pivot.step(position, &mover, 1.0) {
             position += 0.5 * (mover.velocity + step.end.velocity) * step.length_s;
             mover = step.end;
             // Back onto the cylinder, as the solver lays it.
@@ -379,7 +380,7 @@ mod tests {
         let ball = Ball::pool(BallId(1));
         let velocity = DVec3::Y * 0.4;
         let spin = normal.cross(velocity) / ball.radius_m;
-        let step = pivot.step(DVec3::ZERO, &Mover::new(&ball, velocity, spin)).unwrap();
+        let step = pivot.step(DVec3::ZERO, &Mover::new(&ball, velocity, spin), 1.0).unwrap();
         let fall = (DVec3::NEG_Z * G - normal * (DVec3::NEG_Z * G).dot(normal)) * (5.0 / 7.0);
         let exact = velocity + fall * step.length_s;
         assert!(step.end.velocity.distance(exact) < 1e-14, "{step:?}");
@@ -393,7 +394,7 @@ mod tests {
         let velocity = DVec3::new(0.05, 0.4, 0.0);
         let place = DVec3::new(1e-9, 1.0 - 0.4e-3, ball.radius_m);
         let spin = DVec3::Z.cross(velocity) / ball.radius_m;
-        let step = pivot.step(place, &Mover::new(&ball, velocity, spin)).unwrap();
+        let step = pivot.step(place, &Mover::new(&ball, velocity, spin), 1.0).unwrap();
         assert!((step.length_s - 1e-3).abs() < 1e-5, "{step:?}");
     }
 }

@@ -85,11 +85,17 @@ impl EventDriven {
         let from = body.segment;
         let start = Mover::new(&body.ball, from.velocity, from.angular_velocity);
         let pivot = self.pivot(feature, normal);
-        let Some(step) = pivot.step(from.position, &start) else { return false };
+        // What it brushes is looked at again soon.
+        let brushes = body.brushes(at).filter(|other| *other != feature);
+        let longest = match brushes {
+            Some(_) => self.parameters.exact.lasting_step_s,
+            None => f64::INFINITY,
+        };
+        let Some(step) = pivot.step(from.position, &start, longest) else { return false };
         let height_j = body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
         let body = &mut self.bodies[index];
         body.target_j = start.kinetic_j() + height_j - step.loss_j;
-        body.held = SmallVec::from_slice(&[feature]);
+        body.held = core::iter::once(feature).chain(brushes).collect();
         body.quiet_since = at;
         body.leans = false;
         let rate = 1.0 / step.length_s;
