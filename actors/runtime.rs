@@ -7,6 +7,7 @@
 use crate::ai::Ai;
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
 use crate::event_manager::{EventManager, Sink};
+use crate::haptic;
 use crate::input::{Hand, Input, StandIn};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
@@ -15,6 +16,7 @@ use crate::physics::Physics;
 use crate::recorder::{Keeper, Open, Recorder};
 use crate::rules::Rules;
 use hapticbillard::cast::Cast;
+use hapticbillard::events::Health;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -51,6 +53,8 @@ pub struct Setup {
     pub sinks: Vec<Sink>,
     /// Where the newest state of the world goes, for a picture.
     pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// What is felt, and at which device. A game goes on without it; whoever plays is told.
+    pub haptic: Option<haptic::Plan>,
     /// Physics runs on a thread of its own.
     pub physics_thread: bool,
     /// Threads of the tokio runtime, at least 1.
@@ -83,6 +87,7 @@ impl Setup {
             observers: Vec::new(),
             sinks: Vec::new(),
             world: None,
+            haptic: None,
             physics_thread: false,
             workers: 1,
             stop: StopFlag::default(),
@@ -128,9 +133,16 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         }
     };
 
+    let felt = setup.haptic.map(feel);
+    let (keeper, world_port, news) = match felt {
+        None => (None, None, None),
+        Some(Felt { keeper, world, news }) => (keeper, world, Some(news)),
+    };
+    let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
+
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
-    let body = Physics::new(simulation, setup.world);
+    let body = Physics::new(simulation, setup.world, world_port);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
     } else {
@@ -155,6 +167,8 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         input,
         recording,
         verify: setup.verify,
+        signs,
+        news,
     };
     let conductor = spawn(Conductor::new(clock, below));
 
@@ -167,6 +181,9 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     stop(conductor).await;
     stop(physics_ref).await;
     stop(events).await;
+    if let Some(keeper) = keeper {
+        keeper.end().await;
+    }
     match (finished, lost) {
         (Ok(_), Some(lost)) if setup.tempo == Tempo::Free => {
             Err(RunError::Recording(lost.to_string()))
@@ -176,6 +193,33 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             finished
         }
         (finished, None) => finished,
+    }
+}
+
+/// What is felt.
+struct Felt {
+    keeper: Option<haptic::Keeper>,
+    world: Option<haptic::WorldPort>,
+    news: flume::Receiver<Health>,
+}
+
+/// News that wait at most.
+const NEWS: usize = 64;
+
+/// Starts the servo and its control.
+fn feel(plan: haptic::Plan) -> Felt {
+    let (tell, news) = flume::bounded(NEWS);
+    match haptic::Seat::start(plan) {
+        Ok(haptic::Started { seat, world, .. }) => {
+            Felt { keeper: Some(haptic::keep(seat, tell)), world: Some(world), news }
+        }
+        Err(error) => {
+            log::warn!("{error}");
+            let actor = haptic::HAPTIC.to_string();
+            // There is room: nothing was told before.
+            let _ = tell.try_send(Health::ActorFailed { actor, reason: error.to_string() });
+            Felt { keeper: None, world: None, news }
+        }
     }
 }
 
