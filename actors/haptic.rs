@@ -18,7 +18,7 @@ mod timing;
 
 pub use body::Body;
 pub use control::{Haptic, Look, Looked};
-pub use device::{Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
+pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
 pub use keeper::{Keeper, keep};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,

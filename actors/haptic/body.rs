@@ -78,7 +78,8 @@ impl Body {
         self.scene.live = self.ports.signs.is_held();
         if self.stiffness_n_m != self.stiffness_wanted_n_m {
             let step = SOFTEN_PER_S * dt * self.stiffness_n_m.max(self.stiffness_wanted_n_m);
-            self.stiffness_n_m += (self.stiffness_wanted_n_m - self.stiffness_n_m).clamp(-step, step);
+            self.stiffness_n_m +=
+                (self.stiffness_wanted_n_m - self.stiffness_n_m).clamp(-step, step);
             self.servo.limit_stiffness(self.stiffness_n_m);
         }
     }

@@ -82,7 +82,8 @@ impl Haptic {
             (SafetyFlags::STALE, "the world stands still: the force fades out"),
             (SafetyFlags::DISCONNECTED, "the device is not ready: no force"),
         ];
-        for (flag, reason) in wrong.iter().filter(|(flag, _)| flags.has(*flag) && !told.has(*flag)) {
+        for (flag, reason) in wrong.iter().filter(|(flag, _)| flags.has(*flag) && !told.has(*flag))
+        {
             log::warn!("{HAPTIC} ({flag:?}): {reason}");
             failed(reason);
         }

@@ -1,12 +1,13 @@
 //! Which devices there are, and how they are opened.
 
+use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
 };
 use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force};
+use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
-use glam::DVec3;
 
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
@@ -29,7 +30,11 @@ pub fn list() -> [Listed; 5] {
         Listed { name: "simulated", spec, about: "a simulated device in a simulated hand" },
         Listed { name: "mouse", spec, about: "a simulated device; a mouse moves the hand" },
         Listed { name: "recorded:FILE", spec: None, about: "a recording of a device" },
-        Listed { name: "openhaptics", spec: None, about: "SensAble and 3D Systems, by OpenHaptics" },
+        Listed {
+            name: "openhaptics",
+            spec: None,
+            about: "SensAble and 3D Systems, by OpenHaptics",
+        },
         Listed { name: "haply", spec: None, about: "Haply Inverse3, at its service" },
     ]
 }
@@ -122,6 +127,44 @@ impl MousePort {
     }
 }
 
+/// A mouse as a window reports it, on its way into the hand: the left button is the front one of
+/// the stylus, the right the rear one.
+pub struct FeltMouse {
+    port: MousePort,
+    held: Buttons,
+}
+
+impl FeltMouse {
+    /// A mouse without a button held.
+    pub fn new(port: MousePort) -> Self {
+        FeltMouse { port, held: Buttons::default() }
+    }
+
+    /// Takes a report.
+    pub fn hear(&mut self, report: &RawInput) {
+        let heard = match report {
+            RawInput::Moved { right, up } => MouseMove::Moved { right: *right, up: *up },
+            RawInput::Wheel { notches } => MouseMove::Wheel(*notches),
+            RawInput::Button { button, down } => {
+                let stylus = match button {
+                    Button::Left => Buttons::FRONT,
+                    Button::Right => Buttons::REAR,
+                    _ => return,
+                };
+                self.held = if *down { self.held.with(stylus) } else { self.held.without(stylus) };
+                MouseMove::Held(self.held)
+            }
+            RawInput::FocusLost | RawInput::Closed => {
+                self.held = Buttons::default();
+                MouseMove::Held(self.held)
+            }
+            RawInput::Key { .. } => return,
+        };
+        // A full ring loses movements; whatever is held is said again with the next button.
+        let _ = self.port.say(heard);
+    }
+}
+
 /// A simulated device whose hand a mouse moves.
 struct MouseDevice {
     device: SimulatedDevice,
@@ -158,10 +201,10 @@ mod tests {
     #[test]
     fn a_mouse_moves_the_hand_of_its_device() {
         let Opened { mut device, mouse } = open(&HapticDevice::Mouse).unwrap().unwrap();
-        let mut mouse = mouse.unwrap();
-        assert!(mouse.say(MouseMove::Moved { right: 0.25, up: 0.0 }));
-        assert!(mouse.say(MouseMove::Held(Buttons::FRONT)));
-        assert!(mouse.say(MouseMove::Moved { right: 0.0, up: 0.125 }));
+        let mut mouse = FeltMouse::new(mouse.unwrap());
+        mouse.hear(&RawInput::Moved { right: 0.25, up: 0.0 });
+        mouse.hear(&RawInput::Button { button: Button::Left, down: true });
+        mouse.hear(&RawInput::Moved { right: 0.0, up: 0.125 });
         let state = (0..2000).map(|_| device.read(0.001)).last().unwrap();
         // A quarter and an eighth of 160 mm, up to the device's dry friction against the hand.
         assert!((state.position.x - 0.04).abs() < 0.01, "{state:?}");

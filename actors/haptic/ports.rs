@@ -198,11 +198,7 @@ impl AllPorts {
                 timing: timing.clone(),
             },
             control: ControlPorts { orders: orders_in, report: report_out, timing },
-            stylus: StylusPorts {
-                samples: samples_out,
-                buttons: edges_out,
-                signs: signs.clone(),
-            },
+            stylus: StylusPorts { samples: samples_out, buttons: edges_out, signs: signs.clone() },
             world: WorldPort { bodies, balls: balls_in, signs: signs.clone() },
             signs,
         }

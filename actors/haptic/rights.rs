@@ -189,15 +189,15 @@ mod system {
         let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
         let thread = thread_native_id();
         let asked = format!("real-time priority {priority}");
-        let given = ThreadPriorityValue::try_from(priority).map_err(|why| why.to_string()).and_then(
-            |value| {
+        let given = ThreadPriorityValue::try_from(priority)
+            .map_err(|why| why.to_string())
+            .and_then(|value| {
                 let value = ThreadPriority::Crossplatform(value);
                 set_thread_priority_and_policy(thread, value, fifo).map_err(|error| match error {
                     Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
                     other => format!("{other:?}"),
                 })
-            },
-        );
+            });
         match (given, thread_schedule_policy_param(thread)) {
             (Ok(()), Ok((policy, now))) if policy == fifo => {
                 Grant::Obtained(format!("SCHED_FIFO {}", now.sched_priority))

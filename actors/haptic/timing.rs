@@ -192,6 +192,9 @@ mod tests {
         let timing = Timing::default();
         timing.note(100_000, Duration::from_micros(500), 0);
         timing.note(100_001, Duration::from_micros(501), 2);
-        assert_eq!([timing.ticks(), timing.late(), timing.missed(), timing.overruns()], [2, 1, 2, 1]);
+        assert_eq!(
+            [timing.ticks(), timing.late(), timing.missed(), timing.overruns()],
+            [2, 1, 2, 1]
+        );
     }
 }

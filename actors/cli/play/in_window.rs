@@ -11,6 +11,7 @@ use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
+use hapticbillard_actors::haptic::FeltMouse;
 use hapticbillard_actors::input::WindowHand;
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
@@ -99,6 +100,11 @@ fn shown(
     let table = stage.table.clone();
     let record = record.map(|path| (path, stage.header()));
     let physics_thread = stage.scene.physics.thread;
+    let mut haptic = match &replay {
+        Some(_) => None,
+        None => stage.haptic()?,
+    };
+    let mouse = haptic.as_mut().and_then(|plan| plan.opened.mouse.take());
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
         let input = match hand {
@@ -111,7 +117,8 @@ fn shown(
                 // Nobody's hand: it looks round, and stops time.
                 let eye = Human::new(Vec::new(), table);
                 let seen = Vec::new();
-                InputPort::StandIn(Box::new(Spectator { recorded, eye, raw, view, seen }))
+                let felt = mouse.map(FeltMouse::new);
+                InputPort::StandIn(Box::new(Spectator { recorded, eye, raw, view, seen, felt }))
             }
         };
         let setup = Setup {
@@ -121,6 +128,7 @@ fn shown(
             record,
             sinks: vec![sink],
             world: Some(world),
+            haptic,
             physics_thread,
             workers: 2,
             stop,
@@ -138,12 +146,17 @@ struct Spectator {
     raw: flume::Receiver<RawInput>,
     view: triple_buffer::Input<HumanView>,
     seen: Vec<RawInput>,
+    /// The hand at the haptic device that a mouse moves.
+    felt: Option<FeltMouse>,
 }
 
 impl FrameSource for Spectator {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.seen.clear();
         self.seen.extend(self.raw.try_iter());
+        if let Some(felt) = &mut self.felt {
+            self.seen.iter().for_each(|report| felt.hear(report));
+        }
         let own = self.eye.inflow(tick, &self.seen);
         self.view.write(self.eye.view());
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
