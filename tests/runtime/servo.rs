@@ -1,0 +1,384 @@
+//! The servo's thread and its control: rights refused, actors killed, devices and worlds that fail.
+
+use crate::counting::calls;
+use glam::DVec3;
+use hapticbillard::cue::Aim;
+use hapticbillard::events::{Event, Health, Topic, Topics};
+use hapticbillard::haptic::{
+    Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
+    Reach, ReachSettings, SafetyFlags, Servo, ServoSettings,
+};
+use hapticbillard::scene::HapticDevice;
+use hapticbillard::tick::{Delivered, Pace};
+use hapticbillard::units::Tick;
+use hapticbillard_actors::event_manager::Sink;
+use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::Stage;
+use hapticbillard_actors::haptic::{
+    AllPorts, Asked, Body, Grant, Haptic, Look, Opened, Orders, Plan, Seat, Signs, Started, keep,
+    open,
+};
+use hapticbillard_actors::pacer::Tempo;
+use hapticbillard_actors::runtime::{self, Setup};
+use kameo::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// What a test knows of a device, and what it makes it do.
+#[derive(Default)]
+struct Wires {
+    /// Size of the last force that was written [N], as bits.
+    force: AtomicU64,
+    held: AtomicU8,
+    says_nan: AtomicBool,
+    is_lost: AtomicBool,
+    is_gone: AtomicBool,
+}
+
+impl Wires {
+    fn force_n(&self) -> f64 {
+        f64::from_bits(self.force.load(Ordering::SeqCst))
+    }
+}
+
+/// A device in nobody's hand: it rests in the middle.
+struct Wired(Arc<Wires>);
+
+impl Device for Wired {
+    fn spec(&self) -> DeviceSpec {
+        DeviceSpec::OMNI
+    }
+
+    fn read(&mut self, _: f64) -> DeviceState {
+        let is_nan = self.0.says_nan.load(Ordering::SeqCst);
+        let is_lost = self.0.is_lost.load(Ordering::SeqCst);
+        DeviceState {
+            position: if is_nan { DVec3::NAN } else { DVec3::ZERO },
+            buttons: Buttons(self.0.held.load(Ordering::SeqCst)),
+            status: if is_lost { DeviceStatus::Lost } else { DeviceStatus::Ready },
+            ..DeviceState::default()
+        }
+    }
+
+    fn write(&mut self, force: Force) {
+        self.0.force.store(force.0.length().to_bits(), Ordering::SeqCst);
+    }
+}
+
+impl Drop for Wired {
+    fn drop(&mut self) {
+        self.0.is_gone.store(true, Ordering::SeqCst);
+    }
+}
+
+/// What the device is pushed with [N]: less than what the start ramp waits for.
+const PUSH_N: f64 = 0.1;
+
+fn wired() -> (Plan, Arc<Wires>) {
+    let wires = Arc::new(Wires::default());
+    let plan = Plan {
+        opened: Opened { device: Box::new(Wired(wires.clone())), mouse: None },
+        asked: Asked { priority: None, lock_memory: false, ..Asked::default() },
+        mesh: None,
+        effects: EffectSet::of(1, &[Effect::Constant { force: DVec3::X * PUSH_N }]),
+        reach: None,
+        bodies: Vec::new(),
+    };
+    (plan, wires)
+}
+
+/// A world that does nothing but live, as long as this does.
+struct Heart {
+    beats: Arc<AtomicBool>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Heart {
+    fn of(signs: &Arc<Signs>) -> Self {
+        let (signs, beats) = (signs.clone(), Arc::new(AtomicBool::new(true)));
+        let go_on = beats.clone();
+        let thread = std::thread::spawn(move || {
+            while go_on.load(Ordering::SeqCst) {
+                signs.beat();
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        });
+        Heart { beats, thread: Some(thread) }
+    }
+}
+
+impl Drop for Heart {
+    fn drop(&mut self) {
+        self.beats.store(false, Ordering::SeqCst);
+        self.thread.take().unwrap().join().unwrap();
+    }
+}
+
+#[track_caller]
+fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !is_so() {
+        assert!(start.elapsed() < Duration::from_secs(30), "in vain: {what}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn wait_for_push(wires: &Wires) {
+    wait_for("the full force", || wires.force_n() > 0.99 * PUSH_N);
+}
+
+fn wait_for_nothing(wires: &Wires) {
+    wait_for("no force", || wires.force_n() == 0.0);
+}
+
+fn tokio() -> tokio::runtime::Runtime {
+    tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().build().unwrap()
+}
+
+#[test]
+fn a_turn_of_the_loop_allocates_nothing() {
+    let stage = Stage::new(&load_scene("eight_ball").unwrap(), "eight_ball").unwrap();
+    let balls = stage.scene.build_balls(&stage.table).unwrap();
+    let table = stage.simulation().unwrap().snapshot(0.0);
+    let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
+    let (parameters, settings) = (stage.scene.parameters(), ReachSettings::default());
+    let reach = Reach::to_ball(1, balls[0].1.position, &aim, &settings, &parameters);
+    let push = |generation| {
+        let effects = [Effect::Constant { force: DVec3::X * (PUSH_N / 8.0) }; 8];
+        EffectSet::of(generation, &effects)
+    };
+    let orders = Orders { effects: push(1), reach: Some(reach), stiffness_max_n_m: 500.0 };
+    let bodies = balls.into_iter().map(|(ball, _)| ball).collect();
+    let AllPorts { servo, mut control, mut stylus, mut world, signs } =
+        AllPorts::new(orders, bodies);
+    let device = open(&HapticDevice::Simulated).unwrap().unwrap().device;
+    let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI))
+        .among(Arc::new(HapticMesh::of(&stage.table)));
+    let mut body = Body::new(device, rendered, servo);
+    signs.hold(true);
+    let mut felt_n = 0.0_f64;
+    for tick in 0_u32..5000 {
+        if tick % 3 == 0 {
+            world.show(&table);
+            signs.beat();
+        }
+        if tick % 100 == 0 {
+            let stiffness_max_n_m = if tick % 200 == 0 { 500.0 } else { 250.0 };
+            control.orders.write(Orders { effects: push(tick), stiffness_max_n_m, ..orders });
+        }
+        // For a while nobody takes samples: the ring is full.
+        if !(2000..3000).contains(&tick) {
+            while stylus.samples.pop().is_ok() {}
+        }
+        let before = calls();
+        let force = body.turn(0.001).force;
+        assert_eq!(calls() - before, 0, "tick {tick}");
+        felt_n = felt_n.max(force.0.length());
+    }
+    assert!(felt_n > 0.05, "nothing was felt");
+    assert!(control.timing.lost_samples() > 500, "the ring was never full");
+}
+
+#[test]
+fn a_softer_order_is_followed_without_a_step() {
+    let (plan, wires) = wired();
+    let point = Effect::Point { point: DVec3::X * 0.01, stiffness_n_m: 400.0, damping_ns_m: 0.0 };
+    let order = |stiffness_max_n_m| Orders {
+        effects: EffectSet::of(1, &[point]),
+        reach: None,
+        stiffness_max_n_m,
+    };
+    let AllPorts { servo, mut control, signs, .. } = AllPorts::new(order(10.0), Vec::new());
+    let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI));
+    let mut body = Body::new(plan.opened.device, rendered, servo);
+    signs.hold(true);
+    let mut turns = |n: u32, most_step_n: f64| {
+        let mut last = wires.force_n();
+        for _ in 0..n {
+            signs.beat();
+            body.turn(0.001);
+            assert!((wires.force_n() - last).abs() < most_step_n, "{last} N");
+            last = wires.force_n();
+        }
+        last
+    };
+    // 10 mm at 10 N/m, over the start ramp; then at 50 N/m; then at 20 N/m.
+    assert!((turns(1000, 0.01) - 0.1).abs() < 1e-9);
+    control.orders.write(order(50.0));
+    assert!((turns(500, 0.01) - 0.5).abs() < 1e-9);
+    control.orders.write(order(20.0));
+    assert!((turns(500, 0.01) - 0.2).abs() < 1e-9);
+}
+
+/// The calling thread, and those that it starts, lose the right to real-time priority.
+#[cfg(target_os = "linux")]
+fn give_up_rights() {
+    use rustix::thread::{CapabilitySet, capabilities, set_capabilities};
+    let mut sets = capabilities(None).unwrap();
+    let lost = CapabilitySet::SYS_NICE | CapabilitySet::IPC_LOCK;
+    sets.effective -= lost;
+    sets.permitted -= lost;
+    sets.inheritable -= lost;
+    set_capabilities(None, sets).unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn without_rights_the_servo_runs_says_what_would_help_and_ends_in_order() {
+    use rustix::process::{Resource, getrlimit};
+    give_up_rights();
+    let (plan, wires) = wired();
+    let asked = Asked { core: Some(1023), priority: Some(80), lock_memory: true, spin_us: 0 };
+    let Started { seat, .. } = Seat::start(Plan { asked, ..plan }).unwrap();
+    let Grant::Refused(core) = &seat.obtained().core else { panic!("{:?}", seat.obtained()) };
+    assert!(core.asked.contains("1023") && core.remedy.contains("[haptic]"), "{core}");
+    // A user may have been given the right by other means.
+    if getrlimit(Resource::Rtprio).current == Some(0) {
+        let Grant::Refused(priority) = &seat.obtained().priority else {
+            panic!("{:?}", seat.obtained())
+        };
+        assert!(priority.asked.contains("80") && priority.remedy.contains("rtprio"), "{priority}");
+    }
+    let heart = Heart::of(seat.signs());
+    let held = seat.hold().unwrap();
+    assert!(seat.hold().is_none(), "two hold it");
+    wait_for_push(&wires);
+    assert!(seat.timing().ticks() > 400 && seat.is_running());
+    drop(held);
+    drop(seat);
+    assert!(wires.is_gone.load(Ordering::SeqCst), "the device is still open");
+    assert_eq!(wires.force_n(), 0.0);
+    drop(heart);
+}
+
+#[test]
+fn every_edge_of_a_button_is_told_in_order() {
+    let (plan, wires) = wired();
+    let Started { seat, mut stylus, .. } = Seat::start(plan).unwrap();
+    for held in [1, 3, 2, 0, 1, 0] {
+        wires.held.store(held, Ordering::SeqCst);
+        let ticks = seat.timing().ticks();
+        wait_for("two ticks", || seat.timing().ticks() >= ticks + 2);
+    }
+    let mut edges = Vec::new();
+    while let Ok(edge) = stylus.buttons.pop() {
+        edges.push((edge.button.0, edge.down));
+    }
+    let expected = [(1, true), (2, true), (1, false), (2, false), (1, true), (1, false)];
+    assert_eq!(edges, expected);
+}
+
+#[test]
+fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet() {
+    let (plan, wires) = wired();
+    let Started { seat, .. } = Seat::start(plan).unwrap();
+    let _heart = Heart::of(seat.signs());
+    let (tell, news) = flume::unbounded();
+    let runtime = tokio();
+    let keeper = {
+        let _inside = runtime.enter();
+        keep(seat.clone(), tell)
+    };
+    wait_for_push(&wires);
+    let first = keeper.control().unwrap();
+    first.kill();
+    runtime.block_on(first.wait_for_shutdown());
+    wait_for_nothing(&wires);
+    assert!(seat.is_running(), "the thread outlives its control");
+    wait_for("another control", || keeper.control().is_some_and(|other| other.id() != first.id()));
+    wait_for_push(&wires);
+    let failed = news.try_iter().any(
+        |health| matches!(health, Health::ActorFailed { reason, .. } if reason.contains("stopped")),
+    );
+    assert!(failed, "nobody was told");
+    runtime.block_on(keeper.end());
+    wait_for_nothing(&wires);
+    drop(seat);
+    assert!(wires.is_gone.load(Ordering::SeqCst));
+    assert_eq!(wires.force_n(), 0.0);
+}
+
+/// Asks until the control has news; returns the reason and the last tick's flags.
+fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
+    let mut reason = String::new();
+    wait_for("news", || {
+        let looked = runtime.block_on(control.ask(Look).send()).unwrap();
+        looked.news.into_iter().any(|health| match health {
+            Health::ActorFailed { reason: why, .. } => {
+                reason = why;
+                true
+            }
+            _ => false,
+        })
+    });
+    reason
+}
+
+#[test]
+fn a_device_that_says_nan_or_is_lost_and_a_world_that_stalls_leave_no_force_and_are_told() {
+    let (plan, wires) = wired();
+    let Started { seat, .. } = Seat::start(plan).unwrap();
+    let runtime = tokio();
+    let control = {
+        let _inside = runtime.enter();
+        Haptic::spawn(Haptic::new(&seat).unwrap())
+    };
+    let look = || runtime.block_on(control.ask(Look).send()).unwrap();
+    let settle = || {
+        wait_for_push(&wires);
+        wait_for("calm", || look().report.flags == SafetyFlags::default());
+    };
+    let heart = Heart::of(seat.signs());
+    for (switch, expected) in
+        [(&wires.says_nan, "no numbers"), (&wires.is_lost, "the device is not ready")]
+    {
+        settle();
+        switch.store(true, Ordering::SeqCst);
+        wait_for_nothing(&wires);
+        assert!(reason(&runtime, &control).contains(expected), "{expected}");
+        switch.store(false, Ordering::SeqCst);
+        wait_for("the news that it is well", || {
+            look().news.iter().any(|health| matches!(health, Health::ActorRestarted { .. }))
+        });
+    }
+    settle();
+    drop(heart);
+    assert!(reason(&runtime, &control).contains("the world stands still"));
+    wait_for_nothing(&wires);
+    // And back, softly.
+    let _heart = Heart::of(seat.signs());
+    wait_for_push(&wires);
+}
+
+#[test]
+fn a_game_feels_its_balls_and_tells_the_player_what_is_wrong() {
+    let stage = Stage::new(&load_scene("haptic_touch").unwrap(), "haptic_touch").unwrap();
+    let (wired, wires) = wired();
+    wires.says_nan.store(true, Ordering::SeqCst);
+    let mut plan = stage.haptic().unwrap().unwrap();
+    assert_eq!(plan.bodies.len(), 5);
+    plan.opened = wired.opened;
+    plan.asked = wired.asked;
+    let (mail, heard) = flume::unbounded::<Delivered>();
+    let sink = Sink { topics: Topics::of(&[Topic::Health]), mail, dropped: Arc::default() };
+    let setup = Setup {
+        pace: Pace::EveryTick,
+        tempo: Tempo::RealTime(1.0),
+        sinks: vec![sink],
+        haptic: Some(plan),
+        ..Setup::headless(Tick(600))
+    };
+    runtime::run(stage.cast().unwrap(), setup).unwrap();
+    let told = heard.iter().any(|delivered| {
+        delivered.events.iter().any(|stamped| {
+            matches!(&stamped.event, Event::Health(health)
+                if matches!(&**health, Health::ActorFailed { actor, reason }
+                    if actor == "haptic" && reason.contains("no numbers")))
+        })
+    });
+    assert!(told, "the player was not told");
+    assert!(wires.is_gone.load(Ordering::SeqCst), "the game left its servo running");
+    assert_eq!(wires.force_n(), 0.0);
+}
