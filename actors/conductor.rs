@@ -72,7 +72,7 @@ pub struct Below {
     pub recording: Option<Keeper>,
     /// What to check the run against.
     pub verify: Option<Arc<Recording>>,
-    /// Who hears the world's heart beat: a haptic servo.
+    /// Who wants to know that time stands still on purpose: a haptic servo.
     pub signs: Option<Arc<Signs>>,
     /// What the player should be told about the runtime, from outside the tick.
     pub news: Option<flume::Receiver<Health>>,
@@ -184,10 +184,6 @@ impl Message<EndRecording> for Conductor {
 impl Conductor {
     /// One tick, from frame to answers; or a coast that met nothing.
     async fn step(&mut self) -> Result<Progress, RunError> {
-        // In pause too: menus can be felt. A world that stalls in a tick does not come here.
-        if let Some(signs) = &self.below.signs {
-            signs.beat();
-        }
         if let Some(news) = &self.below.news {
             self.health.extend(news.try_iter());
         }
@@ -227,6 +223,10 @@ impl Conductor {
                 }
             }
             Next::Paused => {
+                // Menus can be felt.
+                if let Some(signs) = &self.below.signs {
+                    signs.beat();
+                }
                 let inflow = self.inflow(self.clock.now().after(1)).await?;
                 if inflow.quit {
                     self.clock.quit();

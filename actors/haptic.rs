@@ -13,6 +13,7 @@ mod keeper;
 mod ports;
 mod rights;
 mod seat;
+mod stylus;
 mod thread;
 mod timing;
 
@@ -24,13 +25,16 @@ pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };
 pub use rights::{Asked, Grant, Obtained, Refusal, obtain, probe, release};
-pub use seat::{Held, Plan, Seat, Started};
+pub use seat::{Held, Lay, Plan, Seat, Started};
+pub use stylus::Stylus;
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
 
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};
+use hapticbillard::cue::Aim;
 use hapticbillard::haptic::{EffectSet, HapticMesh, Reach, ReachSettings};
+use hapticbillard::ids::BallId;
 use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
 use std::sync::Arc;
@@ -49,18 +53,30 @@ pub fn plan(
 ) -> Result<Option<Plan>, NoDevice> {
     let Some(section) = &scene.haptic else { return Ok(None) };
     let Some(opened) = open(&section.device)? else { return Ok(None) };
+    let parameters = scene.parameters();
+    let lay = scene.cue.is_some().then(|| Lay { settings: ReachSettings::default(), parameters });
     Ok(Some(Plan {
         opened,
         asked: Asked::by(section),
         mesh: Some(Arc::new(HapticMesh::of(table))),
         effects: EffectSet::default(),
-        reach: reach(scene, balls),
+        reach: reach(scene, balls, lay.as_ref()),
+        lay,
         bodies: balls.iter().map(|(ball, _)| ball.clone()).collect(),
     }))
 }
 
-/// The workspace round all balls; none without balls.
-fn reach(scene: &Scene, balls: &[(Ball, BallState)]) -> Option<Reach> {
+/// How far the workspace in front of a cue ball is lowered at first [rad]: the cue clears the rail.
+const ELEVATION_RAD: f64 = 0.06;
+
+/// The workspace in front of the cue ball where it can be struck; otherwise round all balls; none
+/// without balls.
+fn reach(scene: &Scene, balls: &[(Ball, BallState)], lay: Option<&Lay>) -> Option<Reach> {
+    let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
+    if let (Some(lay), Some((_, state))) = (lay, cue_ball) {
+        let aim = Aim { elevation_rad: ELEVATION_RAD, ..Aim::default() };
+        return Some(lay.to(1, state.position, &aim));
+    }
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for (ball, state) in balls {
         low = low.min(state.position - ball.radius_m);

@@ -16,7 +16,6 @@ use crate::physics::Physics;
 use crate::recorder::{Keeper, Open, Recorder};
 use crate::rules::Rules;
 use hapticbillard::cast::Cast;
-use hapticbillard::events::Health;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -54,7 +53,7 @@ pub struct Setup {
     /// Where the newest state of the world goes, for a picture.
     pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
     /// What is felt, and at which device. A game goes on without it; whoever plays is told.
-    pub haptic: Option<haptic::Plan>,
+    pub haptic: Option<Felt>,
     /// Physics runs on a thread of its own.
     pub physics_thread: bool,
     /// Threads of the tokio runtime, at least 1.
@@ -72,6 +71,17 @@ pub enum InputPort {
     /// A hand: it hears what happens.
     Hand(Box<dyn Hand>),
 }
+
+/// A servo that runs and the way of the balls to it.
+pub struct Felt {
+    /// The servo. It ends with the game if nobody else holds it.
+    pub seat: Arc<haptic::Seat>,
+    /// The way of the balls.
+    pub world: haptic::WorldPort,
+}
+
+/// News from the servo's control that wait at most.
+const NEWS: usize = 64;
 
 impl Setup {
     /// As fast as possible, nobody outside, nothing recorded.
@@ -133,16 +143,21 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         }
     };
 
-    let felt = setup.haptic.map(feel);
-    let (keeper, world_port, news) = match felt {
+    let mut sinks = setup.sinks;
+    let felt = setup.haptic.map(|Felt { seat, world }| {
+        let (tell, news) = flume::bounded(NEWS);
+        sinks.push(seat.sink());
+        (haptic::keep(seat, tell), world, news)
+    });
+    let (keeper, felt_world, news) = match felt {
+        Some((keeper, world, news)) => (Some(keeper), Some(world), Some(news)),
         None => (None, None, None),
-        Some(Felt { keeper, world, news }) => (keeper, world, Some(news)),
     };
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
 
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
-    let body = Physics::new(simulation, setup.world, world_port);
+    let body = Physics::new(simulation, setup.world, felt_world);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
     } else {
@@ -158,7 +173,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     };
 
     let events =
-        EventManager::new(seats, setup.sinks).map_err(|error| RunError::Delivery(error.into()))?;
+        EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
     let events = spawn(events);
     let below = Below {
@@ -193,33 +208,6 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             finished
         }
         (finished, None) => finished,
-    }
-}
-
-/// What is felt.
-struct Felt {
-    keeper: Option<haptic::Keeper>,
-    world: Option<haptic::WorldPort>,
-    news: flume::Receiver<Health>,
-}
-
-/// News that wait at most.
-const NEWS: usize = 64;
-
-/// Starts the servo and its control.
-fn feel(plan: haptic::Plan) -> Felt {
-    let (tell, news) = flume::bounded(NEWS);
-    match haptic::Seat::start(plan) {
-        Ok(haptic::Started { seat, world, .. }) => {
-            Felt { keeper: Some(haptic::keep(seat, tell)), world: Some(world), news }
-        }
-        Err(error) => {
-            log::warn!("{error}");
-            let actor = haptic::HAPTIC.to_string();
-            // There is room: nothing was told before.
-            let _ = tell.try_send(Health::ActorFailed { actor, reason: error.to_string() });
-            Felt { keeper: None, world: None, news }
-        }
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Body {
     stiffness_n_m: f64,
     stiffness_wanted_n_m: f64,
     held: Buttons,
+    /// Of the newest balls.
+    serial: u64,
 }
 
 impl Body {
@@ -34,6 +36,7 @@ impl Body {
             stiffness_n_m: stiffness_max_n_m,
             stiffness_wanted_n_m: stiffness_max_n_m,
             held: Buttons::default(),
+            serial: 0,
         }
     }
 
@@ -73,8 +76,9 @@ impl Body {
             self.scene.ball_count = balls.count;
             self.scene.time_s = balls.time_s;
             self.scene.sample_seen = balls.sample_seen;
+            self.serial = balls.serial;
         }
-        self.scene.serial = self.ports.signs.heartbeat();
+        self.scene.serial = self.serial + self.ports.signs.heartbeat();
         self.scene.live = self.ports.signs.is_held();
         if self.stiffness_n_m != self.stiffness_wanted_n_m {
             let step = SOFTEN_PER_S * dt * self.stiffness_n_m.max(self.stiffness_wanted_n_m);

@@ -3,8 +3,11 @@
 use super::HAPTIC;
 use super::seat::{Held, Seat};
 use super::timing::Timing;
+use hapticbillard::ball::BallPlace;
+use hapticbillard::cue::Aim;
 use hapticbillard::events::Health;
 use hapticbillard::haptic::{SafetyFlags, ServoReport, stiffness_for};
+use hapticbillard::ids::BallId;
 use kameo::prelude::*;
 use std::sync::Arc;
 
@@ -51,6 +54,7 @@ impl Message<Look> for Haptic {
     async fn handle(&mut self, _: Look, _: &mut Context<Self, Looked>) -> Looked {
         let report = self.held.report();
         self.adapt();
+        self.follow(&report);
         let news = self.news(report.flags);
         Looked { report, stiffness_max_n_m: self.held.orders().stiffness_max_n_m, news }
     }
@@ -66,6 +70,22 @@ impl Haptic {
         if change > CLOSE * orders.stiffness_max_n_m {
             self.held.order(super::Orders { stiffness_max_n_m, ..orders });
         }
+    }
+
+    /// The workspace follows the cue ball from shot to shot; it keeps its direction.
+    fn follow(&mut self, report: &ServoReport) {
+        let seat = self.held.seat().clone();
+        let Some(told) = seat.mail().last() else { return };
+        let orders = *self.held.orders();
+        let (Some(lay), Some(reach)) = (seat.lay(), orders.reach) else { return };
+        let Some(cue_ball) = told.table.ball(BallId::CUE) else { return };
+        if cue_ball.place != BallPlace::OnTable || cue_ball.position == reach.pivot {
+            return;
+        }
+        let (azimuth_rad, elevation_rad) = (report.azimuth_rad, report.elevation_rad);
+        let aim = Aim { azimuth_rad, elevation_rad, ..Aim::default() };
+        let reach = lay.to(reach.serial.wrapping_add(1), cue_ball.position, &aim);
+        self.held.order(super::Orders { reach: Some(reach), ..orders });
     }
 
     /// What is wrong and was right when looked at last; and the other way round.

@@ -3,8 +3,8 @@
 //! | | carries | when nobody takes it |
 //! |---|---|---|
 //! | [`Orders`] in | effects, reach, greatest stiffness | the newest counts |
-//! | [`Balls`] in | balls in play | the newest counts |
-//! | [`Signs`] in | heartbeat of the world, dead man's switch | – |
+//! | [`Balls`] in | balls in play, a heartbeat of the world | the newest counts |
+//! | [`Signs`] in | the heartbeat in pause, the dead man's switch | – |
 //! | report out | everything about the last tick | the newest counts |
 //! | samples out | every tick's stylus, for whoever strikes with it | the oldest stay, the loss is counted |
 //! | button edges out | every press and release, in order | the same; every sample tells what is held |
@@ -38,6 +38,8 @@ pub struct Orders {
 /// The balls in play at one time.
 #[derive(Debug, Clone, Copy)]
 pub struct Balls {
+    /// Counts up with every state of the world.
+    pub serial: u64,
     /// The time [s].
     pub time_s: Seconds,
     /// The last sample that physics had taken in.
@@ -50,7 +52,13 @@ pub struct Balls {
 
 impl Default for Balls {
     fn default() -> Self {
-        Balls { time_s: 0.0, sample_seen: 0, balls: [HapticBall::NONE; BALLS_MAX], count: 0 }
+        Balls {
+            serial: 0,
+            time_s: 0.0,
+            sample_seen: 0,
+            balls: [HapticBall::NONE; BALLS_MAX],
+            count: 0,
+        }
     }
 }
 
@@ -63,8 +71,8 @@ pub struct Signs {
 }
 
 impl Signs {
-    /// The world lives: whoever moves it says so at every tick, also while the game is paused. A
-    /// servo that hears nothing for 20 ms fades out.
+    /// The world stands still on purpose: whoever paused it says so, again and again. A servo that
+    /// gets neither this nor new balls for 20 ms fades out.
     pub fn beat(&self) {
         self.heartbeat.fetch_add(1, Ordering::Release);
     }
@@ -139,6 +147,7 @@ pub struct StylusPorts {
 
 /// The end of whoever moves balls.
 pub struct WorldPort {
+    serial: u64,
     bodies: Vec<Ball>,
     balls: triple_buffer::Input<Balls>,
     signs: Arc<Signs>,
@@ -148,6 +157,8 @@ impl WorldPort {
     /// The balls are now as `table` says. Those beyond [`BALLS_MAX`] are not felt.
     pub fn show(&mut self, table: &Snapshot) {
         let slot = self.balls.input_buffer_mut();
+        self.serial += 1;
+        slot.serial = self.serial;
         (slot.time_s, slot.sample_seen, slot.count) = (table.time_s, self.signs.seen(), 0);
         for state in table.on_table() {
             let Ok(index) = self.bodies.binary_search_by_key(&state.id, |ball| ball.id) else {
@@ -199,7 +210,7 @@ impl AllPorts {
             },
             control: ControlPorts { orders: orders_in, report: report_out, timing },
             stylus: StylusPorts { samples: samples_out, buttons: edges_out, signs: signs.clone() },
-            world: WorldPort { bodies, balls: balls_in, signs: signs.clone() },
+            world: WorldPort { serial: 0, bodies, balls: balls_in, signs: signs.clone() },
             signs,
         }
     }

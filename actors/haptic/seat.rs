@@ -8,10 +8,16 @@ use super::rights::{Asked, Obtained};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
 use super::{AllPorts, Opened, Orders};
+use crate::event_manager::Sink;
+use glam::DVec3;
 use hapticbillard::ball::Ball;
+use hapticbillard::cue::Aim;
+use hapticbillard::events::{Topic, Topics};
 use hapticbillard::haptic::{
-    DeviceSpec, EffectSet, HapticMesh, Reach, Servo, ServoSettings, stiffness_for,
+    DeviceSpec, EffectSet, HapticMesh, Reach, ReachSettings, Servo, ServoSettings, stiffness_for,
 };
+use hapticbillard::physics::Parameters;
+use hapticbillard::tick::Delivered;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a servo is made of.
@@ -26,9 +32,30 @@ pub struct Plan {
     pub effects: EffectSet,
     /// How the device reaches into the world.
     pub reach: Option<Reach>,
+    /// How the workspace is laid anew when another shot begins; none: it stays where it is.
+    pub lay: Option<Lay>,
     /// The balls that there can be.
     pub bodies: Vec<Ball>,
 }
+
+/// How a workspace is laid to the cue ball.
+#[derive(Debug, Clone)]
+pub struct Lay {
+    /// The workspace.
+    pub settings: ReachSettings,
+    /// The cue.
+    pub parameters: Parameters,
+}
+
+impl Lay {
+    /// The workspace in front of a cue ball at `pivot` [m], seen along `aim`.
+    pub fn to(&self, serial: u32, pivot: DVec3, aim: &Aim) -> Reach {
+        Reach::to_ball(serial, pivot, aim, &self.settings, &self.parameters)
+    }
+}
+
+/// Mail that waits for a control at most; it only says where the cue ball lies.
+const MAIL: usize = 64;
 
 /// A servo that runs, and the ends that belong to others.
 pub struct Started {
@@ -45,6 +72,8 @@ pub struct Seat {
     thread: ServoThread,
     spec: DeviceSpec,
     orders: Orders,
+    lay: Option<Lay>,
+    mail: (flume::Sender<Delivered>, flume::Receiver<Delivered>),
     control: Mutex<Option<ControlPorts>>,
 }
 
@@ -54,7 +83,7 @@ impl Seat {
     /// # Errors
     /// [`NoServo`] if there is no thread.
     pub fn start(plan: Plan) -> Result<Started, NoServo> {
-        let Plan { opened, asked, mesh, effects, reach, bodies } = plan;
+        let Plan { opened, asked, mesh, effects, reach, lay, bodies } = plan;
         let spec = opened.device.spec();
         let servo = Servo::new(ServoSettings::of(&spec));
         let servo = match mesh {
@@ -64,7 +93,8 @@ impl Seat {
         let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
         let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
         let thread = ServoThread::start(Body::new(opened.device, servo, ports), asked)?;
-        let seat = Seat { thread, spec, orders, control: Mutex::new(Some(control)) };
+        let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some(control)));
+        let seat = Seat { thread, spec, orders, lay, mail, control };
         Ok(Started { seat: Arc::new(seat), world, stylus })
     }
 
@@ -91,6 +121,22 @@ impl Seat {
     /// The device.
     pub fn spec(&self) -> &DeviceSpec {
         &self.spec
+    }
+
+    /// How its workspace is laid anew.
+    pub fn lay(&self) -> Option<&Lay> {
+        self.lay.as_ref()
+    }
+
+    /// What its control wants to be told, and where to.
+    pub fn sink(&self) -> Sink {
+        let topics = Topics::of(&[Topic::Turn, Topic::Settled, Topic::BallPlaced]);
+        Sink { topics, mail: self.mail.0.clone(), dropped: Arc::default() }
+    }
+
+    /// What the control was told.
+    pub fn mail(&self) -> impl Iterator<Item = Delivered> {
+        self.mail.1.try_iter()
     }
 
     /// Takes hold of the servo. None while somebody else does.

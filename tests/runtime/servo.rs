@@ -1,28 +1,34 @@
 //! The servo's thread and its control: rights refused, actors killed, devices and worlds that fail.
 
+use crate::cli::folder;
 use crate::counting::calls;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
-use hapticbillard::events::{Event, Health, Topic, Topics};
+use hapticbillard::events::{Event, Fact, FactKind, Health, Source, Topic, Topics, Verdict};
+use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, SimulatedDevice};
 use hapticbillard::haptic::{
     Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
-    Reach, ReachSettings, SafetyFlags, Servo, ServoSettings,
+    Reach, ReachSettings, SafetyFlags, Servo, ServoSettings, Touched,
 };
+use hapticbillard::hash::StateHash;
+use hapticbillard::ids::BallId;
+use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::HapticDevice;
-use hapticbillard::tick::{Delivered, Pace};
-use hapticbillard::units::Tick;
+use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Pace, Participant};
+use hapticbillard::units::{TICK_S, Tick};
 use hapticbillard_actors::event_manager::Sink;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    AllPorts, Asked, Body, Grant, Haptic, Look, Opened, Orders, Plan, Seat, Signs, Started, keep,
-    open,
+    AllPorts, Asked, Body, ControlPorts, Grant, Haptic, Look, Opened, Orders, Plan, Seat, Signs,
+    Started, Stylus, WorldPort, keep, open,
 };
 use hapticbillard_actors::pacer::Tempo;
-use hapticbillard_actors::runtime::{self, Setup};
+use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use kameo::prelude::*;
-use std::sync::Arc;
+use std::fs;
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -84,6 +90,7 @@ fn wired() -> (Plan, Arc<Wires>) {
         mesh: None,
         effects: EffectSet::of(1, &[Effect::Constant { force: DVec3::X * PUSH_N }]),
         reach: None,
+        lay: None,
         bodies: Vec::new(),
     };
     (plan, wires)
@@ -162,7 +169,6 @@ fn a_turn_of_the_loop_allocates_nothing() {
     for tick in 0_u32..5000 {
         if tick % 3 == 0 {
             world.show(&table);
-            signs.beat();
         }
         if tick % 100 == 0 {
             let stiffness_max_n_m = if tick % 200 == 0 { 500.0 } else { 250.0 };
@@ -361,13 +367,14 @@ fn a_game_feels_its_balls_and_tells_the_player_what_is_wrong() {
     assert_eq!(plan.bodies.len(), 5);
     plan.opened = wired.opened;
     plan.asked = wired.asked;
+    let Started { seat, world, .. } = Seat::start(plan).unwrap();
     let (mail, heard) = flume::unbounded::<Delivered>();
     let sink = Sink { topics: Topics::of(&[Topic::Health]), mail, dropped: Arc::default() };
     let setup = Setup {
         pace: Pace::EveryTick,
         tempo: Tempo::RealTime(1.0),
         sinks: vec![sink],
-        haptic: Some(plan),
+        haptic: Some(Felt { seat, world }),
         ..Setup::headless(Tick(600))
     };
     runtime::run(stage.cast().unwrap(), setup).unwrap();
@@ -381,4 +388,129 @@ fn a_game_feels_its_balls_and_tells_the_player_what_is_wrong() {
     assert!(told, "the player was not told");
     assert!(wires.is_gone.load(Ordering::SeqCst), "the game left its servo running");
     assert_eq!(wires.force_n(), 0.0);
+}
+
+/// Device, servo and stylus, a turn for every tick of the game: the thread without its clock.
+struct InStep {
+    body: Body,
+    control: ControlPorts,
+    table: triple_buffer::Output<Arc<Snapshot>>,
+    world: WorldPort,
+    stylus: Stylus,
+    felt: Arc<Mutex<Vec<(f64, Touched)>>>,
+}
+
+impl FrameSource for InStep {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        if self.table.update() {
+            self.world.show(self.table.output_buffer());
+        }
+        self.body.turn(TICK_S);
+        let report = self.control.report.read();
+        if let Some(contact) = report.contact {
+            self.felt.lock().unwrap().push((report.force.0.length(), contact.touched));
+        }
+        self.stylus.inflow(tick)
+    }
+}
+
+/// Hears what the referee says.
+#[derive(Clone, Default)]
+struct Verdicts(Arc<Mutex<Vec<Arc<Verdict>>>>);
+
+impl Participant for Verdicts {
+    fn source(&self) -> Source {
+        Source::Runtime
+    }
+
+    fn topics(&self) -> Topics {
+        Topics::of(&[Topic::Verdict])
+    }
+
+    fn start(&mut self, _: &Snapshot) -> Outcome {
+        Outcome::default()
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        for stamped in delivered.events.iter() {
+            if let Event::Verdict(verdict) = &stamped.event {
+                self.0.lock().unwrap().push(verdict.clone());
+            }
+        }
+        Outcome::default()
+    }
+
+    fn hash(&self, _: &mut StateHash) {}
+}
+
+const TWO_HANDS: &str = r#"
+[scene]
+name = "Two hands at a stylus"
+[physics]
+solver = "event-driven"
+[table]
+preset = "pool-9ft"
+[balls]
+rack = "eight-ball"
+[cue]
+[rules]
+game = "paper-eight-ball"
+[[player]]
+name = "One"
+kind = "human"
+[[player]]
+name = "Two"
+kind = "human"
+[haptic]
+device = "simulated"
+"#;
+
+#[test]
+fn a_hand_breaks_and_the_referee_judges_it() {
+    let file = folder("two_hands").join("two_hands.toml");
+    fs::write(&file, TWO_HANDS).unwrap();
+    let stage = Stage::new(&load_scene(file.to_str().unwrap()).unwrap(), "two_hands").unwrap();
+    let plan = stage.haptic().unwrap().unwrap();
+    let (effects, reach) = (plan.effects, plan.reach);
+    let orders = Orders { effects, reach, stiffness_max_n_m: 500.0 };
+    let AllPorts { servo, control, stylus, world, signs } = AllPorts::new(orders, plan.bodies);
+    let guide = Guide::Script(HandScript::stroke(1.2, 0.3));
+    let device = Box::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide));
+    let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI)).among(plan.mesh.unwrap());
+    let (shown, table) = triple_buffer::triple_buffer(&Arc::<Snapshot>::default());
+    let felt = Arc::new(Mutex::new(Vec::new()));
+    let body = Body::new(device, rendered, servo);
+    let stylus = Stylus::new(stylus);
+    signs.hold(true);
+    let hand = InStep { body, control, table, world, stylus, felt: felt.clone() };
+    let verdicts = Verdicts::default();
+    let (mail, facts) = flume::unbounded::<Delivered>();
+    let sink = Sink { topics: Topics::of(&[Topic::CueBallStruck]), mail, dropped: Arc::default() };
+    let setup = Setup {
+        pace: Pace::EveryTick,
+        input: InputPort::StandIn(Box::new(hand)),
+        observers: vec![Box::new(verdicts.clone())],
+        sinks: vec![sink],
+        world: Some(shown),
+        ..Setup::headless(Tick(20_000))
+    };
+    runtime::run(stage.cast().unwrap(), setup).unwrap();
+
+    let felt = felt.lock().unwrap();
+    let struck = felt.iter().filter(|(_, touched)| *touched == Touched::Struck(BallId::CUE));
+    assert_eq!(struck.count(), 1, "{felt:?}");
+    assert!(felt.iter().all(|(force_n, _)| *force_n <= 3.3), "{felt:?}");
+    let told = facts.iter().flat_map(|delivered| delivered.events.to_vec());
+    let speeds: Vec<f64> = told
+        .filter_map(|stamped| match stamped.event {
+            Event::Fact(Fact {
+                kind: FactKind::CueBallStruck { normal_speed_m_s, .. }, ..
+            }) => Some(normal_speed_m_s),
+            _ => None,
+        })
+        .collect();
+    // Scale and gain make 6.6 m/s of a hand at 1.2 m/s.
+    assert!((speeds[0] / 6.6 - 1.0).abs() < 0.03, "{speeds:?}");
+    let verdicts = verdicts.0.lock().unwrap();
+    assert_eq!(verdicts.len(), 1, "{verdicts:?}");
 }

@@ -92,7 +92,7 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
     Ok(if is_ours || !seat.is_running() { Status::CheckFailed } else { Status::Success })
 }
 
-/// Lets the scene be felt for a while, its balls and its heartbeat handed over every millisecond.
+/// Lets the scene be felt for a while, its balls handed over every millisecond.
 fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Error> {
     let balls = stage.scene.build_balls(&stage.table)?;
     let simulation = stage.simulation()?;
@@ -110,6 +110,7 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
         mesh: Some(Arc::new(HapticMesh::of(&stage.table))),
         effects: effects(),
         reach,
+        lay: None,
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
     let Started { seat, mut world, .. } = Seat::start(plan)?;
@@ -118,7 +119,6 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
     let table = simulation.snapshot(simulation.now_s());
     while Instant::now() < end && seat.is_running() {
         world.show(&table);
-        seat.signs().beat();
         std::thread::sleep(Duration::from_millis(1));
     }
     drop(held);

@@ -11,11 +11,11 @@ use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
-use hapticbillard_actors::haptic::FeltMouse;
+use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus};
 use hapticbillard_actors::input::WindowHand;
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
-use hapticbillard_actors::runtime::{self, InputPort, Setup};
+use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -100,13 +100,20 @@ fn shown(
     let table = stage.table.clone();
     let record = record.map(|path| (path, stage.header()));
     let physics_thread = stage.scene.physics.thread;
-    let mut haptic = match &replay {
+    let mut plan = match &replay {
         Some(_) => None,
         None => stage.haptic()?,
     };
-    let mouse = haptic.as_mut().and_then(|plan| plan.opened.mouse.take());
+    let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
+    let has_cue = stage.scene.cue.is_some();
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
+        let started = plan.map(Seat::start).transpose();
+        let started = started.map_err(|error| RunError::Start(error.to_string()))?;
+        let (haptic, stylus) = match started {
+            Some(Started { seat, world, stylus }) => (Some(Felt { seat, world }), Some(stylus)),
+            None => (None, None),
+        };
         let input = match hand {
             Some(hand) => {
                 let hand = hand.with_ball_radius(radii.of(BallId::CUE));
@@ -118,7 +125,9 @@ fn shown(
                 let eye = Human::new(Vec::new(), table);
                 let seen = Vec::new();
                 let felt = mouse.map(FeltMouse::new);
-                InputPort::StandIn(Box::new(Spectator { recorded, eye, raw, view, seen, felt }))
+                let stylus = stylus.filter(|_| has_cue).map(Stylus::new);
+                let who = Spectator { recorded, eye, raw, view, seen, felt, stylus };
+                InputPort::StandIn(Box::new(who))
             }
         };
         let setup = Setup {
@@ -139,7 +148,8 @@ fn shown(
     Ok(show(setup, game))
 }
 
-/// Somebody who only watches: a recording or nobody plays, the camera is the spectator's.
+/// Nobody at mouse and keyboard plays: a recording does, a stylus, or nobody; the camera is the
+/// spectator's.
 struct Spectator {
     recorded: Option<RecordedInput>,
     eye: Human,
@@ -148,6 +158,8 @@ struct Spectator {
     seen: Vec<RawInput>,
     /// The hand at the haptic device that a mouse moves.
     felt: Option<FeltMouse>,
+    /// The stylus that strikes, where there is a cue.
+    stylus: Option<Stylus>,
 }
 
 impl FrameSource for Spectator {
@@ -160,7 +172,10 @@ impl FrameSource for Spectator {
         let own = self.eye.inflow(tick, &self.seen);
         self.view.write(self.eye.view());
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
-        let recorded = recorded.unwrap_or_default();
+        let mut recorded = recorded.unwrap_or_default();
+        if let Some(stylus) = &mut self.stylus {
+            recorded.frame.extend(stylus.frame(tick));
+        }
         // What the spectator's hand would publish is not part of the game.
         Inflow {
             frame: recorded.frame,
