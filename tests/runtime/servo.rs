@@ -5,7 +5,7 @@ use crate::counting::calls;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::{Event, Fact, FactKind, Health, Source, Topic, Topics, Verdict};
-use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, SimulatedDevice};
+use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
 use hapticbillard::haptic::{
     Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
     Reach, ReachSettings, SafetyFlags, Servo, ServoSettings, Touched,
@@ -474,8 +474,11 @@ fn a_hand_breaks_and_the_referee_judges_it() {
     let (effects, reach) = (plan.effects, plan.reach);
     let orders = Orders { effects, reach, stiffness_max_n_m: 500.0 };
     let AllPorts { servo, control, stylus, world, signs } = AllPorts::new(orders, plan.bodies);
-    let guide = Guide::Script(HandScript::stroke(1.2, 0.3));
-    let device = Box::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide));
+    // The hand lets go and gets out of the way of what comes back.
+    let aside = Leg::to(DVec3::new(0.0, 0.03, 0.02), 0.3);
+    let stroke = HandScript::stroke(1.2, 0.3).then(aside);
+    let guide = Guide::Script(stroke);
+    let device = Box::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::ARM, guide));
     let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI)).among(plan.mesh.unwrap());
     let (shown, table) = triple_buffer::triple_buffer(&Arc::<Snapshot>::default());
     let felt = Arc::new(Mutex::new(Vec::new()));
@@ -509,7 +512,7 @@ fn a_hand_breaks_and_the_referee_judges_it() {
             _ => None,
         })
         .collect();
-    // Scale and gain make 6.6 m/s of a hand at 1.2 m/s.
+    // Scale and gain make 6.6 m/s of an arm at 1.2 m/s.
     assert!((speeds[0] / 6.6 - 1.0).abs() < 0.03, "{speeds:?}");
     let verdicts = verdicts.0.lock().unwrap();
     assert_eq!(verdicts.len(), 1, "{verdicts:?}");
