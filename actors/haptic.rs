@@ -24,7 +24,7 @@ pub use keeper::{Keeper, keep};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };
-pub use rights::{Asked, Grant, Obtained, Refusal, obtain, probe, release};
+pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
 pub use thread::{NoServo, ServoThread};

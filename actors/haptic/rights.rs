@@ -13,11 +13,33 @@ const PRIORITY: u8 = 80;
 /// How long before a deadline the thread is awake, where a scene does not say [µs].
 const SPIN_US: u32 = 100;
 
+/// Which processor core to stay on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Core {
+    /// None.
+    Any,
+    /// The last one that the program may use.
+    Last,
+    /// This one.
+    Number(u32),
+}
+
+impl fmt::Display for Core {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Core::Any => f.write_str("any core"),
+            Core::Last => f.write_str("the last core"),
+            Core::Number(core) => write!(f, "core {core}"),
+        }
+    }
+}
+
 /// What is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Asked {
-    /// The processor core to stay on; none: the last one that the program may use.
-    pub core: Option<u32>,
+    /// The core to stay on.
+    pub core: Core,
     /// The priority among real-time threads, first in first out.
     pub priority: Option<u8>,
     /// Whether memory stays in memory.
@@ -28,7 +50,7 @@ pub struct Asked {
 
 impl Default for Asked {
     fn default() -> Self {
-        Asked { core: None, priority: Some(PRIORITY), lock_memory: true, spin_us: SPIN_US }
+        Asked { core: Core::Last, priority: Some(PRIORITY), lock_memory: true, spin_us: SPIN_US }
     }
 }
 
@@ -38,7 +60,7 @@ impl Asked {
         let usual = Asked::default();
         let priority = section.priority.and_then(|priority| u8::try_from(priority).ok());
         Asked {
-            core: section.core,
+            core: section.core.map_or(usual.core, Core::Number),
             priority: priority.or(usual.priority),
             spin_us: section.spin_us.unwrap_or(usual.spin_us),
             ..usual
@@ -145,7 +167,7 @@ pub fn release() {
 
 #[cfg(target_os = "linux")]
 mod system {
-    use super::{Grant, Refusal};
+    use super::{Core, Grant, Refusal};
     use rustix::mm::{MlockAllFlags, mlockall, munlockall};
     use rustix::thread::{CpuSet, sched_getaffinity, sched_setaffinity, set_current_timer_slack};
     use std::num::NonZeroU64;
@@ -159,14 +181,20 @@ mod system {
         Grant::Refused(Refusal { asked, reason: reason.to_string(), remedy })
     }
 
-    pub fn pin(core: Option<u32>) -> Grant {
+    pub fn pin(core: Core) -> Grant {
+        if core == Core::Any {
+            return Grant::NotAsked;
+        }
         let usable: Vec<usize> = match sched_getaffinity(None) {
             Ok(set) => (0..CpuSet::MAX_CPU).filter(|core| set.is_set(*core)).collect(),
             Err(_) => Vec::new(),
         };
-        let wanted = core.map(|core| core as usize).or(usable.last().copied());
+        let wanted = match core {
+            Core::Number(core) => Some(core as usize),
+            Core::Any | Core::Last => usable.last().copied(),
+        };
         let Some(wanted) = wanted.filter(|wanted| *wanted < CpuSet::MAX_CPU) else {
-            return refused("a core".into(), "there is none of that number", remedy_core(&usable));
+            return refused(core.to_string(), "there is none of that number", remedy_core(&usable));
         };
         let mut set = CpuSet::new();
         set.set(wanted);
@@ -238,7 +266,7 @@ mod system {
 
 #[cfg(not(target_os = "linux"))]
 mod system {
-    use super::{Grant, Refusal};
+    use super::{Core, Grant, Refusal};
 
     fn unknown(asked: String) -> Grant {
         Grant::Refused(Refusal {
@@ -248,8 +276,8 @@ mod system {
         })
     }
 
-    pub fn pin(core: Option<u32>) -> Grant {
-        core.map_or(Grant::NotAsked, |core| unknown(format!("core {core}")))
+    pub fn pin(core: Core) -> Grant {
+        if core == Core::Any { Grant::NotAsked } else { unknown(core.to_string()) }
     }
 
     pub fn prioritise(priority: u8) -> Grant {

@@ -11,7 +11,7 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Grant, Histogram, Obtained, Plan, Seat, Started, Timing, open,
+    Asked, Core, Grant, Histogram, Obtained, Plan, Seat, Started, Timing, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
@@ -68,7 +68,7 @@ pub struct CheckArgs {
 pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let usual = Asked::default();
     let asked = Asked {
-        core: args.core,
+        core: args.core.map_or(usual.core, Core::Number),
         priority: args.priority.or(usual.priority),
         spin_us: args.spin_us.unwrap_or(usual.spin_us),
         ..usual
@@ -224,7 +224,7 @@ fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
 
 /// What was asked for and what came of it, a line each.
 pub fn write_rights(asked: Asked, obtained: &Obtained, out: &mut dyn Write) -> Result<(), Error> {
-    let core = asked.core.map_or("the last core".to_string(), |core| format!("core {core}"));
+    let core = asked.core.to_string();
     let priority = asked
         .priority
         .map_or("no priority".to_string(), |priority| format!("real-time priority {priority}"));
