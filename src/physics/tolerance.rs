@@ -79,9 +79,9 @@ pub const ABYSS_M: f64 = 1.0;
 pub const PRESS_M: f64 = 1e-7;
 
 /// A hop on level ground that begins slower than this is not followed; how long the rest of the
-/// series lasts is added in closed form [m/s]. Larger: paths differ by the height of the last hops,
-/// here a micrometre.
-pub const HOP_M_S: f64 = 5e-3;
+/// series lasts is added in closed form [m/s]. Larger: paths differ by the way slid during the last
+/// hops, some micrometres a landing, and a break takes fewer events.
+pub const HOP_M_S: f64 = 2e-3;
 
 /// A hop slower than this is followed nowhere [m/s].
 pub const LEAST_HOP_M_S: f64 = 5e-5;
@@ -90,8 +90,8 @@ pub const LEAST_HOP_M_S: f64 = 5e-5;
 /// surface's normal against gravity.
 ///
 /// A series of hops lasts 2v/(g n (1 − e)) and takes all of its energy with it, so nothing but the
-/// last 2 ms of a series is left out: what bounces without loss goes on for ever, and a wall has no
-/// hops.
+/// last 0.8 ms of a series is left out: what bounces without loss goes on for ever, and a wall has
+/// no hops.
 pub fn hop_m_s(restitution: f64, upright: f64) -> f64 {
     let part = (2.0 * (1.0 - restitution)).clamp(0.0, 1.0) * upright.max(0.0);
     (HOP_M_S * part).max(LEAST_HOP_M_S)

@@ -125,7 +125,7 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
     ])?;
     let default = PhysicsSettings::default();
     let step = Limits { low: 0.001, high: 50.0, unit: "(ms)", example: "4.0" };
-    let hop = Limits { low: 1e-9, high: 1.0, unit: "(m/s)", example: "5e-3" };
+    let hop = Limits { low: 1e-9, high: 1.0, unit: "(m/s)", example: "2e-3" };
     let lasting = Limits { low: 1e-3, high: 50.0, unit: "(ms)", example: "0.5" };
     let gravity = Limits { low: 0.0, high: 1000.0, unit: "(m/s², downwards)", example: "9.81" };
     let solvers: [(&[&str], SolverKind); 2] =

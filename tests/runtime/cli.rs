@@ -125,7 +125,8 @@ fn a_wrong_scene_is_one_line_on_stderr() {
         &format!(
             "{file}:4: physics.step_s = 0.004: physics has the keys solver, step_ms, integrator, \
              sub_steps, profile, ball_law, cushion_law, multi_contact, hop_m_s, lasting_step_ms, \
-             gravity_m_s2, ball_friction, contact_back_dating, thread; did you mean step_ms?"
+             gravity_m_s2, ball_friction, flight, contact_back_dating, thread; did you mean \
+             step_ms?"
         ),
     );
     refused(

@@ -133,8 +133,8 @@ fn beyond(text: &mut String, players: &Players) {
     );
     say!(
         text,
-        "**Force error of the haptic wall against servo rate.** No haptic part exists in this \
-         version. What can be said without one stands above: how stiff a sampled spring wall may \
-         be at which rate.\n"
+        "**Force error of the haptic wall against servo rate.** Not measured here yet. How stiff a \
+         sampled spring wall may be at which rate stands above; `hapticbillard haptic simulate` \
+         finds the limits of the servo itself with hands and devices.\n"
     );
 }
