@@ -6,8 +6,8 @@
 //! | [`Balls`] in | balls in play, a heartbeat of the world | the newest counts |
 //! | [`Signs`] in | the heartbeat in pause, the dead man's switch | – |
 //! | report out | everything about the last tick | the newest counts |
-//! | samples out | every tick's stylus, for whoever strikes with it | the oldest stay, the loss is counted |
-//! | button edges out | every press and release, in order | the same; every sample tells what is held |
+//! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
+//! | edges out | every press and release, in order | the same; a sample tells what is held |
 
 use super::timing::Timing;
 use hapticbillard::ball::Ball;

@@ -39,7 +39,10 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
                 })
             });
             let line = json!({
-                "name": device.name, "about": device.about, "built_in": spec.is_some(), "spec": spec,
+                "name": device.name,
+                "about": device.about,
+                "built_in": spec.is_some(),
+                "spec": spec,
             });
             json_line(out, &line)?;
         } else {
