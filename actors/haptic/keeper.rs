@@ -67,11 +67,15 @@ async fn run(
     mut ended: watch::Receiver<bool>,
 ) {
     let mut pause = PAUSE;
+    let mut was_gone = false;
     loop {
         // The one before has let go when it is dropped, which may be a moment after its end.
         if let Some(control) = Haptic::new(&seat) {
             let control = Haptic::spawn_with_mailbox(control, mailbox::bounded(MAILBOX));
             shown.send_replace(Some(control.clone()));
+            if was_gone {
+                tell(&news, Health::ActorRestarted { actor: HAPTIC.into() });
+            }
             let looks = look_on(&control, &news, &mut ended).await;
             shown.send_replace(None);
             if *ended.borrow() {
@@ -83,6 +87,7 @@ async fn run(
             let reason = "its control stopped: no force until another one starts".to_string();
             log::warn!("{HAPTIC}: {reason}");
             tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason });
+            was_gone = true;
             pause = if looks < SETTLED { (2 * pause).min(PAUSE_MAX) } else { PAUSE };
         }
         tokio::select! {

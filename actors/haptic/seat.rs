@@ -71,10 +71,10 @@ pub struct Started {
 pub struct Seat {
     thread: ServoThread,
     spec: DeviceSpec,
-    orders: Orders,
     lay: Option<Lay>,
     mail: (flume::Sender<Delivered>, flume::Receiver<Delivered>),
-    control: Mutex<Option<ControlPorts>>,
+    /// With what was ordered last: another control goes on with it.
+    control: Mutex<Option<(ControlPorts, Orders)>>,
 }
 
 impl Seat {
@@ -93,8 +93,8 @@ impl Seat {
         let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
         let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
         let thread = ServoThread::start(Body::new(opened.device, servo, ports), asked)?;
-        let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some(control)));
-        let seat = Seat { thread, spec, orders, lay, mail, control };
+        let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some((control, orders))));
+        let seat = Seat { thread, spec, lay, mail, control };
         Ok(Started { seat: Arc::new(seat), world, stylus })
     }
 
@@ -141,12 +141,12 @@ impl Seat {
 
     /// Takes hold of the servo. None while somebody else does.
     pub fn hold(self: &Arc<Self>) -> Option<Held> {
-        let ports = self.slot().take()?;
+        let (ports, orders) = self.slot().take()?;
         self.signs().hold(true);
-        Some(Held { ports: Some(ports), orders: self.orders, seat: self.clone() })
+        Some(Held { ports: Some(ports), orders, seat: self.clone() })
     }
 
-    fn slot(&self) -> std::sync::MutexGuard<'_, Option<ControlPorts>> {
+    fn slot(&self) -> std::sync::MutexGuard<'_, Option<(ControlPorts, Orders)>> {
         // Nothing is done under the lock that could leave it half done.
         self.control.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -188,6 +188,6 @@ impl Held {
 impl Drop for Held {
     fn drop(&mut self) {
         self.seat.signs().hold(false);
-        *self.seat.slot() = self.ports.take();
+        *self.seat.slot() = self.ports.take().map(|ports| (ports, self.orders));
     }
 }

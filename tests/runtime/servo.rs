@@ -249,8 +249,14 @@ fn without_rights_the_servo_runs_says_what_would_help_and_ends_in_order() {
         assert!(priority.asked.contains("80") && priority.remedy.contains("rtprio"), "{priority}");
     }
     let heart = Heart::of(seat.signs());
-    let held = seat.hold().unwrap();
+    let mut held = seat.hold().unwrap();
     assert!(seat.hold().is_none(), "two hold it");
+    let softer = Orders { stiffness_max_n_m: 123.0, ..*held.orders() };
+    held.order(softer);
+    drop(held);
+    // Another one goes on with what was ordered last.
+    let held = seat.hold().unwrap();
+    assert_eq!(*held.orders(), softer);
     wait_for_push(&wires);
     assert!(seat.timing().ticks() > 400 && seat.is_running());
     drop(held);
@@ -296,10 +302,12 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
     assert!(seat.is_running(), "the thread outlives its control");
     wait_for("another control", || keeper.control().is_some_and(|other| other.id() != first.id()));
     wait_for_push(&wires);
-    let failed = news.try_iter().any(
+    let told: Vec<Health> = news.try_iter().collect();
+    let failed = told.iter().position(
         |health| matches!(health, Health::ActorFailed { reason, .. } if reason.contains("stopped")),
     );
-    assert!(failed, "nobody was told");
+    let restarted = told.iter().rposition(|health| matches!(health, Health::ActorRestarted { .. }));
+    assert!(failed.is_some() && failed < restarted, "{told:?}");
     runtime.block_on(keeper.end());
     wait_for_nothing(&wires);
     drop(seat);
