@@ -8,6 +8,7 @@ mod answers;
 mod case;
 mod catalogue;
 mod chaos;
+mod felt_wall;
 mod hop;
 mod idle;
 mod method;
@@ -20,6 +21,7 @@ mod trial;
 pub use case::{CaseBall, CaseStart, Ground, GroundPlane, Law, Part, Rub, SceneCase};
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
+pub use felt_wall::{FeltWall, RATES_HZ, SPEED_M_S, STIFFNESS_N_M, felt_wall};
 pub use hop::{Form, Hop, hop, solver_hop};
 pub use idle::{Idle, idle};
 pub use method::{

@@ -280,3 +280,16 @@ fn a_row_is_the_same_twice() {
     };
     assert_eq!(make(), make());
 }
+
+#[test]
+fn the_felt_wall_is_wrong_in_the_first_order_of_the_period() {
+    let walls: Vec<_> = [500.0, 1000.0, 4000.0].map(report::felt_wall).into();
+    for wall in &walls {
+        assert!(wall.force_error > 0.5 * wall.theory, "{wall:?}");
+        assert!(wall.force_error < 1.5 * wall.theory, "{wall:?}");
+        // A held force gives energy.
+        assert!(wall.speed_ratio.is_some_and(|ratio| ratio > 1.0), "{wall:?}");
+    }
+    let order = (walls[1].force_error / walls[2].force_error).log2() / 2.0;
+    assert!((order - 1.0).abs() < 0.1, "{order}");
+}

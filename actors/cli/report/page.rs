@@ -11,7 +11,8 @@ use super::measure::{Measured, Timed};
 use super::peers;
 use super::players::Players;
 use super::stability::Table;
-use hapticbillard::report::{Method, Peers, Status};
+use hapticbillard::haptic::DeviceSpec;
+use hapticbillard::report::{self, Method, Peers, Status};
 use hapticbillard_actors::files::{new_recording_name, processor_name};
 use std::fmt::Write;
 
@@ -131,10 +132,36 @@ fn beyond(text: &mut String, players: &Players) {
         players.fouls,
         players.shots,
     );
+    felt_walls(text);
+}
+
+/// The servo's own wall, felt at several rates.
+fn felt_walls(text: &mut String) {
     say!(
         text,
-        "**Force error of the haptic wall against servo rate.** Not measured here yet. How stiff a \
-         sampled spring wall may be at which rate stands above; `hapticbillard haptic simulate` \
-         finds the limits of the servo itself with hands and devices.\n"
+        "**Force error of the haptic wall against servo rate.** A stylus of {:.0} g without \
+         friction runs at {} m/s into a wall of {:.0} N/m, which the servo of the game computes \
+         and the simulated device holds for a period. The error is the largest difference from the \
+         spring's force where the stylus is, over the spring's peak. It falls with the first order \
+         of the period, and so does what the stylus gains; no better integrator would help, \
+         because the force is late. Stiffer walls than those under \"the sampled spring wall\" \
+         swing up; `hapticbillard haptic simulate` finds the same limits with hands and devices.\n",
+        DeviceSpec::OMNI.mass_kg * 1e3,
+        report::SPEED_M_S,
+        report::STIFFNESS_N_M,
     );
+    say!(text, "| rate [Hz] | force error | theory for short periods | speed after over before |");
+    say!(text, "|---|---|---|---|");
+    for rate in report::RATES_HZ {
+        let wall = report::felt_wall(rate);
+        let ratio = wall.speed_ratio.map_or_else(|| String::from("-"), |r| format!("{r:.4}"));
+        say!(
+            text,
+            "| {:.0} | {:.2} % | {:.2} % | {ratio} |",
+            wall.rate_hz,
+            1e2 * wall.force_error,
+            1e2 * wall.theory
+        );
+    }
+    say!(text, "");
 }
