@@ -6,6 +6,7 @@
 //! [`crate::pacer`]).
 
 use crate::event_manager::{DeliveryError, EventManager, Seal};
+use crate::haptic::Signs;
 use crate::input::{Entered, FrameOf};
 use crate::physics::{Advance, Coast, Moved, Physics};
 use crate::recorder::{Keeper, Lost};
@@ -71,6 +72,10 @@ pub struct Below {
     pub recording: Option<Keeper>,
     /// What to check the run against.
     pub verify: Option<Arc<Recording>>,
+    /// Who wants to know that time stands still on purpose: a haptic servo.
+    pub signs: Option<Arc<Signs>>,
+    /// What the player should be told about the runtime, from outside the tick.
+    pub news: Option<flume::Receiver<Health>>,
 }
 
 /// Owns the clock.
@@ -179,6 +184,9 @@ impl Message<EndRecording> for Conductor {
 impl Conductor {
     /// One tick, from frame to answers; or a coast that met nothing.
     async fn step(&mut self) -> Result<Progress, RunError> {
+        if let Some(news) = &self.below.news {
+            self.health.extend(news.try_iter());
+        }
         if !self.primed {
             self.primed = true;
             self.inflow(Tick(0)).await?;
@@ -215,6 +223,10 @@ impl Conductor {
                 }
             }
             Next::Paused => {
+                // Menus can be felt.
+                if let Some(signs) = &self.below.signs {
+                    signs.beat();
+                }
                 let inflow = self.inflow(self.clock.now().after(1)).await?;
                 if inflow.quit {
                     self.clock.quit();

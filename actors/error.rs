@@ -71,6 +71,12 @@ pub enum Error {
     /// A game could not go on.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A haptic device is not there.
+    #[error(transparent)]
+    Device(#[from] crate::haptic::NoDevice),
+    /// A haptic servo cannot run.
+    #[error(transparent)]
+    Servo(#[from] crate::haptic::NoServo),
     /// A simulation cannot begin or go on.
     #[error(transparent)]
     Physics(#[from] PhysicsError),

@@ -3,6 +3,7 @@
 use crate::conductor::RunError;
 use crate::error::Error;
 use crate::files::{LineWriter, LoadedScene};
+use crate::haptic;
 use crate::pacer::StopFlag;
 use crate::runtime::{self, InputPort};
 use crate::stopwatch::{Stopwatch, Timed};
@@ -100,6 +101,15 @@ impl Stage {
         let balls = self.scene.build_balls(&self.table)?;
         let (physics, parameters) = (&self.scene.physics, self.scene.parameters());
         Ok(Simulation::with_parameters(&self.table, balls, physics, parameters)?)
+    }
+
+    /// What the scene asks to be felt, if anything.
+    ///
+    /// # Errors
+    /// A device that is not built in, or balls that do not fit the table.
+    pub fn haptic(&self) -> Result<Option<haptic::Plan>, Error> {
+        let balls = self.scene.build_balls(&self.table)?;
+        Ok(haptic::plan(&self.scene, &self.table, &balls)?)
     }
 
     /// The cores of this game.

@@ -24,6 +24,8 @@ pub mod ai;
 
 pub mod input;
 
+pub mod haptic;
+
 pub mod observer;
 
 pub mod event_log;

@@ -1,5 +1,6 @@
 //! The actor of the simulation: runs [`tick::coast`] and [`tick::advance`], nothing else.
 
+use crate::haptic::WorldPort;
 use hapticbillard::events::{Command, FactSet};
 use hapticbillard::physics::{PhysicsError, Simulation, Snapshot};
 use hapticbillard::tick::{self, Advanced};
@@ -14,17 +15,30 @@ pub struct Physics {
     simulation: Simulation,
     /// The newest state of the world, for whoever draws it: a stream, so it goes through a slot.
     world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// The same for a hand.
+    felt: Option<WorldPort>,
 }
 
 impl Physics {
-    /// Joins the simulation with the slot for its picture, if somebody draws one.
-    pub fn new(simulation: Simulation, world: Option<triple_buffer::Input<Arc<Snapshot>>>) -> Self {
-        Physics { simulation, world }
+    /// Joins the simulation with the slots for its picture, if somebody draws one, and for a hand,
+    /// if somebody feels it.
+    pub fn new(
+        simulation: Simulation,
+        world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+        mut felt: Option<WorldPort>,
+    ) -> Self {
+        if let Some(felt) = &mut felt {
+            felt.show(&simulation.snapshot(simulation.now_s()));
+        }
+        Physics { simulation, world, felt }
     }
 
     fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
         if let (Some(world), Ok(advanced)) = (&mut self.world, &moved) {
             world.write(advanced.table.clone());
+        }
+        if let (Some(felt), Ok(advanced)) = (&mut self.felt, &moved) {
+            felt.show(&advanced.table);
         }
         Moved(moved)
     }

@@ -7,6 +7,7 @@
 use crate::ai::Ai;
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
 use crate::event_manager::{EventManager, Sink};
+use crate::haptic;
 use crate::input::{Hand, Input, StandIn};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
@@ -51,6 +52,8 @@ pub struct Setup {
     pub sinks: Vec<Sink>,
     /// Where the newest state of the world goes, for a picture.
     pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// What is felt, and at which device. A game goes on without it; whoever plays is told.
+    pub haptic: Option<Felt>,
     /// Physics runs on a thread of its own.
     pub physics_thread: bool,
     /// Threads of the tokio runtime, at least 1.
@@ -69,6 +72,17 @@ pub enum InputPort {
     Hand(Box<dyn Hand>),
 }
 
+/// A servo that runs and the way of the balls to it.
+pub struct Felt {
+    /// The servo. It ends with the game if nobody else holds it.
+    pub seat: Arc<haptic::Seat>,
+    /// The way of the balls.
+    pub world: haptic::WorldPort,
+}
+
+/// News from the servo's control that wait at most.
+const NEWS: usize = 64;
+
 impl Setup {
     /// As fast as possible, nobody outside, nothing recorded.
     pub fn headless(limit: Tick) -> Self {
@@ -83,6 +97,7 @@ impl Setup {
             observers: Vec::new(),
             sinks: Vec::new(),
             world: None,
+            haptic: None,
             physics_thread: false,
             workers: 1,
             stop: StopFlag::default(),
@@ -128,9 +143,21 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         }
     };
 
+    let mut sinks = setup.sinks;
+    let felt = setup.haptic.map(|Felt { seat, world }| {
+        let (tell, news) = flume::bounded(NEWS);
+        sinks.push(seat.sink());
+        (haptic::keep(seat, tell), world, news)
+    });
+    let (keeper, felt_world, news) = match felt {
+        Some((keeper, world, news)) => (Some(keeper), Some(world), Some(news)),
+        None => (None, None, None),
+    };
+    let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
+
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
-    let body = Physics::new(simulation, setup.world);
+    let body = Physics::new(simulation, setup.world, felt_world);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
     } else {
@@ -146,7 +173,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     };
 
     let events =
-        EventManager::new(seats, setup.sinks).map_err(|error| RunError::Delivery(error.into()))?;
+        EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
     let events = spawn(events);
     let below = Below {
@@ -155,6 +182,8 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         input,
         recording,
         verify: setup.verify,
+        signs,
+        news,
     };
     let conductor = spawn(Conductor::new(clock, below));
 
@@ -167,6 +196,9 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     stop(conductor).await;
     stop(physics_ref).await;
     stop(events).await;
+    if let Some(keeper) = keeper {
+        keeper.end().await;
+    }
     match (finished, lost) {
         (Ok(_), Some(lost)) if setup.tempo == Tempo::Free => {
             Err(RunError::Recording(lost.to_string()))

@@ -1,5 +1,7 @@
 //! `hapticbillard haptic`: the haptic renderer on the bench.
 
+pub mod check;
+mod devices;
 mod simulate;
 
 use super::Status;
@@ -18,11 +20,15 @@ pub struct HapticArgs {
 #[derive(Debug, Clone, Subcommand)]
 pub enum HapticCommand {
     Simulate(simulate::SimulateArgs),
+    Check(check::CheckArgs),
+    Devices(devices::DevicesArgs),
 }
 
 /// Does it.
 pub fn run(args: &HapticArgs, out: &mut dyn Write) -> Result<Status, Error> {
     match &args.command {
         HapticCommand::Simulate(args) => simulate::run(args, out),
+        HapticCommand::Check(args) => check::run(args, out),
+        HapticCommand::Devices(args) => devices::run(args, out),
     }
 }

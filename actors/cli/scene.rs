@@ -1,10 +1,12 @@
 //! `hapticbillard scene`: what a scene will start.
 
+use super::haptic::check::write_rights;
 use super::{Status, json_line};
 use clap::Args;
 use hapticbillard::scene::PlanKind;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::haptic::{Asked, HAPTIC, probe};
 use serde_json::json;
 use std::io::Write;
 
@@ -33,6 +35,12 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let loaded = load_scene(&args.scene)?;
     let scene = &loaded.scene;
     let plan = scene.plan();
+    // What the thread would get is asked of the operating system, by a thread that ends at once.
+    let is_felt = plan.iter().any(|line| line.kind == PlanKind::Actor && line.name == HAPTIC);
+    let servo = scene.haptic.as_ref().filter(|_| is_felt).map(|section| {
+        let asked = Asked::by(section);
+        (asked, probe(&asked))
+    });
     let lines = |kind| plan.iter().filter(move |line| line.kind == kind);
     if args.json {
         plan.iter().try_for_each(|line| json_line(out, line))?;
@@ -45,6 +53,13 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write) -> Result<Status, Error> {
             "actors": lines(PlanKind::Actor).count(),
             "terms": lines(PlanKind::Term).count(),
             "left_out": lines(PlanKind::LeftOut).count(),
+            "servo": servo.map(|(asked, obtained)| json!({
+                "core": asked.core,
+                "priority": asked.priority,
+                "lock_memory": asked.lock_memory,
+                "spin_us": asked.spin_us,
+                "obtained": obtained,
+            })),
         }});
         json_line(out, &summary)?;
         return Ok(Status::Success);
@@ -61,6 +76,10 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write) -> Result<Status, Error> {
         for line in lines(kind) {
             writeln!(out, "  {:<20} {}", line.name, line.detail)?;
         }
+    }
+    if let Some((asked, obtained)) = servo {
+        writeln!(out, "\nthe servo's thread")?;
+        write_rights(asked, &obtained, out)?;
     }
     Ok(Status::Success)
 }

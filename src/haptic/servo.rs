@@ -68,6 +68,14 @@ impl Servo {
         &self.report
     }
 
+    /// From now on no effect and no coupling is stiffer than `n_m` [N/m]. Whoever changes it while
+    /// something is felt does so in small steps. What is no positive number changes nothing.
+    pub fn limit_stiffness(&mut self, n_m: f64) {
+        if n_m > 0.0 {
+            self.settings.stiffness_max_n_m = n_m;
+        }
+    }
+
     /// One tick: the force on the device [N, device frame], from what it says, the newest scene
     /// and the true time since the last tick [s].
     pub fn tick(&mut self, device: &DeviceState, scene: &HapticScene, dt: Seconds) -> Force {

@@ -108,6 +108,9 @@ impl Hud {
         if board.is_unrecorded {
             hud.message.push(words.get("not_recorded"));
         }
+        if let Some(reason) = &board.unfelt {
+            hud.message.push(words.fill("haptic", "reason", reason));
+        }
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
             hud.tip = Some(TipDial {

@@ -27,6 +27,8 @@ pub struct Scoreboard {
     pub over: Option<Option<PlayerId>>,
     /// The recording stands still, or has ended.
     pub is_unrecorded: bool,
+    /// What is wrong with the haptic device, while something is.
+    pub unfelt: Option<String>,
 }
 
 impl Scoreboard {
@@ -86,6 +88,10 @@ impl Scoreboard {
                 Health::ActorRestarted { actor } if actor == "recorder" => {
                     self.is_unrecorded = false;
                 }
+                Health::ActorFailed { actor, reason } if actor == "haptic" => {
+                    self.unfelt = Some(reason.clone());
+                }
+                Health::ActorRestarted { actor } if actor == "haptic" => self.unfelt = None,
                 _ => {}
             },
             Event::Command(_) | Event::Menu(_) => {}

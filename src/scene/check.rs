@@ -175,13 +175,22 @@ fn game(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
 /// Everybody who plays has what it takes.
 fn players(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
     let recorded = scene.actors.as_ref().is_some_and(|actors| actors.input.is_some());
+    // A stylus is a hand too, where nobody plays with the mouse.
+    let has_stylus =
+        scene.haptic.as_ref().is_some_and(|haptic| haptic.device != HapticDevice::None);
     for (i, player) in scene.players.iter().enumerate() {
         let wrong = |allowed: &str, fix: &str| Err(at(root, "player", i, "kind", allowed, fix));
         if scene.cue.is_none() {
             return wrong("a player needs a cue", "write a section [cue]");
         }
-        if player.kind != PlayerKind::Paper && scene.input.is_none() {
-            return wrong("such a player needs an input", "write a section [input]");
+        let is_led = match player.kind {
+            PlayerKind::Paper => true,
+            PlayerKind::Human => scene.input.is_some() || has_stylus,
+            PlayerKind::Recorded => scene.input.is_some(),
+        };
+        if !is_led {
+            let fix = "write a section [input], or [haptic] for a stylus";
+            return wrong("such a player needs an input", fix);
         }
         if player.kind == PlayerKind::Recorded && !recorded {
             return wrong(

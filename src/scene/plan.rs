@@ -1,6 +1,6 @@
 //! What a scene will start, which terms its physics has, and what was left out and why.
 
-use super::{PlayerKind, Scene, StandIn};
+use super::{HapticDevice, PlayerKind, Scene, StandIn};
 use serde::Serialize;
 
 /// One line of the plan.
@@ -88,14 +88,22 @@ impl Scene {
     /// Without `[haptic]` no servo, no mesh for it and no thread exist.
     fn haptic_of_plan(&self, plan: &mut Plan) {
         match &self.haptic {
-            // The servo is a core without a thread so far.
             Some(haptic) => {
                 let device = haptic.device.name();
-                let why = format!(
-                    "device {device} is asked for, but nothing runs a servo in a game yet; \
-                     `haptic simulate` runs the same servo"
-                );
-                plan.left_out("haptic", &why);
+                match haptic.device {
+                    HapticDevice::None => plan.left_out("haptic", "[haptic] names no device"),
+                    HapticDevice::Auto | HapticDevice::Simulated | HapticDevice::Mouse => {
+                        let detail = format!(
+                            "what the device \"{device}\" feels, in a window; a task, and its \
+                             servo on a real-time thread"
+                        );
+                        plan.add(PlanKind::Actor, "haptic", &detail);
+                    }
+                    HapticDevice::Recorded(_) | HapticDevice::OpenHaptics | HapticDevice::Haply => {
+                        let why = format!("the device \"{device}\" is not built in");
+                        plan.left_out("haptic", &why);
+                    }
+                }
             }
             None => plan.left_out("haptic", "the scene has no [haptic]"),
         }

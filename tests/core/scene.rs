@@ -400,7 +400,8 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "[table]\npreset = \"pool-9ft\"\n[balls]\nrack = \"eight-ball\"\n[cue]\n[rules]\ngame = \
          \"free-play\"\n[[player]]\nkind = \"human\"\n",
-        "12: player[0].kind = \"human\": such a player needs an input; write a section [input]",
+        "12: player[0].kind = \"human\": such a player needs an input; write a section [input], \
+         or [haptic] for a stylus",
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\n[balls]\nrack = \

@@ -30,10 +30,11 @@ const LAYERS: [&[&str]; 15] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 24] = [
+const ACTORS: [(&str, Option<&str>); 25] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
+    ("haptic", Some("haptic")),
     ("input", Some("input")),
     ("observer", Some("tally")),
     ("physics", Some("physics")),

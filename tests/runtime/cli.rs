@@ -68,8 +68,11 @@ fn every_command_teaches_with_an_example() {
         );
         assert!(help.contains("Examples:"), "{help}");
     }
-    let help = program(&["haptic", "simulate", "--help"]);
-    assert!(text(&help.stdout).contains("Examples:\n  hapticbillard haptic simulate"), "{help:?}");
+    for command in ["simulate", "check", "devices"] {
+        let help = program(&["haptic", command, "--help"]);
+        let example = format!("Examples:\n  hapticbillard haptic {command}");
+        assert!(text(&help.stdout).contains(&example), "{help:?}");
+    }
     let help = program(&["--help"]);
     assert!(text(&help.stdout).contains("haptic"));
     assert!(commands.iter().all(|command| text(&help.stdout).contains(command)));

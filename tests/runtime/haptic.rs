@@ -61,3 +61,59 @@ fn a_stroke_is_told_tick_by_tick() {
     let struck = rows.iter().filter(|row| row.contains("struck 0")).count();
     assert_eq!(struck, 1);
 }
+
+#[test]
+fn devices_are_listed_and_what_is_not_built_in_says_so() {
+    let lines = lines(&program(&["haptic", "devices", "--json"]).stdout);
+    let is = |name: &str| lines.iter().find(|line| line["name"] == name).unwrap();
+    assert_eq!(is("simulated")["built_in"], true);
+    assert_eq!(is("mouse")["spec"]["force_max_n"], 3.3);
+    assert_eq!(is("openhaptics")["built_in"], false);
+    assert_eq!(lines.last().unwrap()["summary"]["built_in"], 2);
+    let plain = program(&["haptic", "devices"]);
+    assert!(
+        text(&plain.stdout)
+            .lines()
+            .any(|line| { line.starts_with("haply") && line.ends_with("not built in") })
+    );
+}
+
+#[test]
+fn the_check_says_what_was_asked_for_and_measures() {
+    let output = program(&["haptic", "check", "--seconds", "0.5", "--load", "--json"]);
+    let summary = &lines(&output.stdout)[0]["summary"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    // Every deadline had its tick or was missed; a busy machine misses many.
+    let due = number(&summary["ticks"]) + number(&summary["missed"]);
+    assert!(due >= 450.0 && number(&summary["ticks"]) > 10.0, "{summary}");
+    for measured in ["lateness_us", "work_us"] {
+        let [p50, p99, most] = ["p50", "p99", "max"].map(|key| number(&summary[measured][key]));
+        assert!(p50 <= p99 && p99 <= most, "{summary}");
+    }
+    assert!(number(&summary["work_us"]["p50"]) > 0.1, "{summary}");
+    for right in ["core", "priority", "memory"] {
+        let outcome = &summary[right]["outcome"];
+        let remedy = &outcome["refused"]["remedy"];
+        assert!(outcome["obtained"].is_string() || remedy.is_string(), "{summary}");
+    }
+    let is_ours = number(&summary["overruns"]) * 1000.0 > number(&summary["ticks"]);
+    assert_eq!(output.status.code(), Some(i32::from(is_ours)), "{summary}");
+
+    let output = program(&["haptic", "check", "--seconds", "0.2", "--core", "1023"]);
+    let told = text(&output.stdout);
+    assert!(told.contains("core       asked for core 1023: core 1023 was refused"), "{told}");
+    for line in ["priority ", "memory ", "spin ", "ticks ", "lateness ", "work ", "overruns "] {
+        assert!(told.lines().any(|told| told.starts_with(line)), "{told}");
+    }
+}
+
+#[test]
+fn a_scene_says_what_its_servo_will_get() {
+    let told = program(&["scene", "haptic_touch"]);
+    assert!(text(&told.stdout).contains("priority   asked for real-time priority 80"), "{told:?}");
+    let json = lines(&program(&["scene", "haptic_touch", "--json"]).stdout);
+    let servo = &json.last().unwrap()["summary"]["servo"];
+    assert_eq!([&servo["priority"], &servo["spin_us"]], [80, 100]);
+    let none = lines(&program(&["scene", "eight_ball", "--json"]).stdout);
+    assert!(none.last().unwrap()["summary"]["servo"].is_null());
+}

@@ -7,6 +7,8 @@
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// An allocator that counts.
+mod counting;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
@@ -32,6 +34,8 @@ mod resources;
 mod rule_actor;
 /// Actors against lockstep, replays, a mock hand.
 mod same_bits;
+/// The servo's thread, and the actor that controls it.
+mod servo;
 /// Who dies and what then.
 mod supervision;
 /// The progress bar.

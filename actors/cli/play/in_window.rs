@@ -11,10 +11,11 @@ use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
+use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus};
 use hapticbillard_actors::input::WindowHand;
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
-use hapticbillard_actors::runtime::{self, InputPort, Setup};
+use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -99,8 +100,20 @@ fn shown(
     let table = stage.table.clone();
     let record = record.map(|path| (path, stage.header()));
     let physics_thread = stage.scene.physics.thread;
+    let mut plan = match &replay {
+        Some(_) => None,
+        None => stage.haptic()?,
+    };
+    let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
+    let has_cue = stage.scene.cue.is_some();
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
+        let started = plan.map(Seat::start).transpose();
+        let started = started.map_err(|error| RunError::Start(error.to_string()))?;
+        let (haptic, stylus) = match started {
+            Some(Started { seat, world, stylus }) => (Some(Felt { seat, world }), Some(stylus)),
+            None => (None, None),
+        };
         let input = match hand {
             Some(hand) => {
                 let hand = hand.with_ball_radius(radii.of(BallId::CUE));
@@ -111,7 +124,10 @@ fn shown(
                 // Nobody's hand: it looks round, and stops time.
                 let eye = Human::new(Vec::new(), table);
                 let seen = Vec::new();
-                InputPort::StandIn(Box::new(Spectator { recorded, eye, raw, view, seen }))
+                let felt = mouse.map(FeltMouse::new);
+                let stylus = stylus.filter(|_| has_cue).map(Stylus::new);
+                let who = Spectator { recorded, eye, raw, view, seen, felt, stylus };
+                InputPort::StandIn(Box::new(who))
             }
         };
         let setup = Setup {
@@ -121,6 +137,7 @@ fn shown(
             record,
             sinks: vec![sink],
             world: Some(world),
+            haptic,
             physics_thread,
             workers: 2,
             stop,
@@ -131,23 +148,34 @@ fn shown(
     Ok(show(setup, game))
 }
 
-/// Somebody who only watches: a recording or nobody plays, the camera is the spectator's.
+/// Nobody at mouse and keyboard plays: a recording does, a stylus, or nobody; the camera is the
+/// spectator's.
 struct Spectator {
     recorded: Option<RecordedInput>,
     eye: Human,
     raw: flume::Receiver<RawInput>,
     view: triple_buffer::Input<HumanView>,
     seen: Vec<RawInput>,
+    /// The hand at the haptic device that a mouse moves.
+    felt: Option<FeltMouse>,
+    /// The stylus that strikes, where there is a cue.
+    stylus: Option<Stylus>,
 }
 
 impl FrameSource for Spectator {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.seen.clear();
         self.seen.extend(self.raw.try_iter());
+        if let Some(felt) = &mut self.felt {
+            self.seen.iter().for_each(|report| felt.hear(report));
+        }
         let own = self.eye.inflow(tick, &self.seen);
         self.view.write(self.eye.view());
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
-        let recorded = recorded.unwrap_or_default();
+        let mut recorded = recorded.unwrap_or_default();
+        if let Some(stylus) = &mut self.stylus {
+            recorded.frame.extend(stylus.frame(tick));
+        }
         // What the spectator's hand would publish is not part of the game.
         Inflow {
             frame: recorded.frame,

@@ -111,6 +111,12 @@ impl HandScript {
         HandScript { start_velocity, ..self }
     }
 
+    /// The same with another leg at its end.
+    pub fn then(mut self, leg: Leg) -> Self {
+        self.legs.push(leg);
+        self
+    }
+
     /// How long all legs take [s].
     pub fn duration_s(&self) -> Seconds {
         self.legs.iter().map(|leg| leg.duration_s).sum()

@@ -1,0 +1,69 @@
+//! `hapticbillard haptic devices`: what a scene can ask for, and what is built in.
+
+use crate::cli::{Status, json_line};
+use clap::Args;
+use hapticbillard_actors::error::Error;
+use hapticbillard_actors::haptic::list;
+use serde_json::json;
+use std::io::Write;
+
+const EXAMPLE: &str = "\
+A scene names its device in [haptic], such as device = \"mouse\".
+
+Examples:
+  hapticbillard haptic devices
+  hapticbillard haptic devices --json";
+
+/// Lists the haptic devices that a scene can name.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct DevicesArgs {
+    /// Prints JSON lines.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Lists them.
+pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    let devices = list();
+    for device in &devices {
+        if args.json {
+            let spec = device.spec.map(|spec| {
+                json!({
+                    "model": spec.model,
+                    "workspace_m": spec.workspace_m.to_array(),
+                    "force_max_n": spec.force_max_n,
+                    "force_continuous_n": spec.force_continuous_n,
+                    "stiffness_max_n_m": spec.stiffness_max_n_m,
+                    "rate_hz": spec.rate_hz,
+                })
+            });
+            let line = json!({
+                "name": device.name,
+                "about": device.about,
+                "built_in": spec.is_some(),
+                "spec": spec,
+            });
+            json_line(out, &line)?;
+        } else {
+            let how = match device.spec {
+                Some(spec) => format!(
+                    "like a {}: {} N, {} N for long, {} N/m, {} Hz",
+                    spec.model,
+                    spec.force_max_n,
+                    spec.force_continuous_n,
+                    spec.stiffness_max_n_m,
+                    spec.rate_hz
+                ),
+                None => "not built in".to_string(),
+            };
+            writeln!(out, "{:<14} {}; {how}", device.name, device.about)?;
+        }
+    }
+    if args.json {
+        let built_in = devices.iter().filter(|device| device.spec.is_some()).count();
+        let summary = json!({ "devices": devices.len(), "built_in": built_in });
+        json_line(out, &json!({ "summary": summary }))?;
+    }
+    Ok(Status::Success)
+}

@@ -1,0 +1,88 @@
+//! The haptic actor: the control plane of a servo that runs on a thread of its own.
+//!
+//! The thread turns [`hapticbillard::haptic::Servo`] at 1 kHz and hears and says everything through
+//! slots and rings; it never sees a message. The actor looks at it some times a second: it lowers
+//! the stiffness to what the achieved lateness allows, and tells the player what is wrong. Thread
+//! and device outlive it in a [`Seat`]; a control that dies has let go of the dead man's switch.
+
+mod body;
+mod clock;
+mod control;
+mod device;
+mod keeper;
+mod ports;
+mod rights;
+mod seat;
+mod stylus;
+mod thread;
+mod timing;
+
+pub use body::Body;
+pub use control::{Haptic, Look, Looked};
+pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
+pub use keeper::{Keeper, keep};
+pub use ports::{
+    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
+};
+pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
+pub use seat::{Held, Lay, Plan, Seat, Started};
+pub use stylus::Stylus;
+pub use thread::{NoServo, ServoThread};
+pub use timing::{Histogram, OVERRUN_NS, Timing};
+
+use glam::DVec3;
+use hapticbillard::ball::{Ball, BallState};
+use hapticbillard::cue::Aim;
+use hapticbillard::haptic::{EffectSet, HapticMesh, Reach, ReachSettings};
+use hapticbillard::ids::BallId;
+use hapticbillard::scene::Scene;
+use hapticbillard::table::Table;
+use std::sync::Arc;
+
+/// The name of the actor in what the player is told.
+pub const HAPTIC: &str = "haptic";
+
+/// What `scene` asks to be felt; none if it asks for nothing.
+///
+/// # Errors
+/// [`NoDevice`] if this build does not know the device.
+pub fn plan(
+    scene: &Scene,
+    table: &Table,
+    balls: &[(Ball, BallState)],
+) -> Result<Option<Plan>, NoDevice> {
+    let Some(section) = &scene.haptic else { return Ok(None) };
+    let Some(opened) = open(&section.device)? else { return Ok(None) };
+    let parameters = scene.parameters();
+    let lay = scene.cue.is_some().then(|| Lay { settings: ReachSettings::default(), parameters });
+    Ok(Some(Plan {
+        opened,
+        asked: Asked::by(section),
+        mesh: Some(Arc::new(HapticMesh::of(table))),
+        effects: EffectSet::default(),
+        reach: reach(scene, balls, lay.as_ref()),
+        lay,
+        bodies: balls.iter().map(|(ball, _)| ball.clone()).collect(),
+    }))
+}
+
+/// How far the workspace in front of a cue ball is lowered at first [rad]: the cue clears the rail.
+const ELEVATION_RAD: f64 = 0.06;
+
+/// The workspace in front of the cue ball where it can be struck; otherwise round all balls; none
+/// without balls.
+fn reach(scene: &Scene, balls: &[(Ball, BallState)], lay: Option<&Lay>) -> Option<Reach> {
+    let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
+    if let (Some(lay), Some((_, state))) = (lay, cue_ball) {
+        let aim = Aim { elevation_rad: ELEVATION_RAD, ..Aim::default() };
+        return Some(lay.to(1, state.position, &aim));
+    }
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for (ball, state) in balls {
+        low = low.min(state.position - ball.radius_m);
+        high = high.max(state.position + ball.radius_m);
+    }
+    let tip_radius_m = scene.parameters().tip_radius_m;
+    let settings = ReachSettings::default();
+    (!balls.is_empty()).then(|| Reach::around(1, low, high, tip_radius_m, &settings))
+}

@@ -1,0 +1,117 @@
+//! The body of the servo's loop: one reading, one tick, one force. It needs no thread and no clock,
+//! and never allocates, locks, logs or waits.
+
+use super::ports::{ButtonEdge, Orders, ServoPorts};
+use hapticbillard::haptic::{
+    Buttons, Device, Force, HapticScene, Servo, ServoReport, StylusSample,
+};
+use hapticbillard::units::Seconds;
+
+/// How fast the greatest stiffness changes: a wall under the hand must not become a step [1/s].
+const SOFTEN_PER_S: f64 = 10.0;
+
+/// A device, its servo and their ports. Whatever ends it leaves the device without force.
+pub struct Body {
+    device: Box<dyn Device>,
+    servo: Servo,
+    scene: HapticScene,
+    ports: ServoPorts,
+    stiffness_n_m: f64,
+    stiffness_wanted_n_m: f64,
+    held: Buttons,
+    /// Of the newest balls.
+    serial: u64,
+}
+
+impl Body {
+    /// Joins them.
+    pub fn new(device: Box<dyn Device>, mut servo: Servo, mut ports: ServoPorts) -> Self {
+        let Orders { effects, reach, stiffness_max_n_m } = *ports.orders.read();
+        servo.limit_stiffness(stiffness_max_n_m);
+        Body {
+            device,
+            servo,
+            scene: HapticScene { effects, reach, ..HapticScene::default() },
+            ports,
+            stiffness_n_m: stiffness_max_n_m,
+            stiffness_wanted_n_m: stiffness_max_n_m,
+            held: Buttons::default(),
+            serial: 0,
+        }
+    }
+
+    /// The period of the device [s].
+    pub fn period_s(&self) -> Seconds {
+        self.device.spec().period_s()
+    }
+
+    /// The ports.
+    pub fn ports(&self) -> &ServoPorts {
+        &self.ports
+    }
+
+    /// One turn of the loop, `dt` after the last one [s].
+    pub fn turn(&mut self, dt: Seconds) -> &ServoReport {
+        self.hear(dt);
+        let state = self.device.read(dt);
+        let force = self.servo.tick(&state, &self.scene, dt);
+        self.device.write(force);
+        let report = *self.servo.report();
+        self.tell_buttons(state.buttons, report.counters.ticks);
+        self.tell_sample(report.sample);
+        self.ports.report.write(report);
+        self.servo.report()
+    }
+
+    /// Takes what is new from outside.
+    fn hear(&mut self, dt: Seconds) {
+        if self.ports.orders.update() {
+            let Orders { effects, reach, stiffness_max_n_m } = *self.ports.orders.output_buffer();
+            (self.scene.effects, self.scene.reach) = (effects, reach);
+            self.stiffness_wanted_n_m = stiffness_max_n_m;
+        }
+        if self.ports.balls.update() {
+            let balls = self.ports.balls.output_buffer();
+            self.scene.balls = balls.balls;
+            self.scene.ball_count = balls.count;
+            self.scene.time_s = balls.time_s;
+            self.scene.sample_seen = balls.sample_seen;
+            self.serial = balls.serial;
+        }
+        self.scene.serial = self.serial + self.ports.signs.heartbeat();
+        self.scene.live = self.ports.signs.is_held();
+        if self.stiffness_n_m != self.stiffness_wanted_n_m {
+            let step = SOFTEN_PER_S * dt * self.stiffness_n_m.max(self.stiffness_wanted_n_m);
+            self.stiffness_n_m +=
+                (self.stiffness_wanted_n_m - self.stiffness_n_m).clamp(-step, step);
+            self.servo.limit_stiffness(self.stiffness_n_m);
+        }
+    }
+
+    fn tell_buttons(&mut self, buttons: Buttons, tick: u64) {
+        let (pressed, released) = buttons.edges(self.held);
+        self.held = buttons;
+        for bit in 0..u8::BITS {
+            let button = Buttons(1 << bit);
+            for (edges, down) in [(pressed, true), (released, false)] {
+                let edge = ButtonEdge { tick, button, down };
+                if edges.has(button) && self.ports.buttons.push(edge).is_err() {
+                    self.ports.timing.lose_button();
+                }
+            }
+        }
+    }
+
+    fn tell_sample(&mut self, sample: StylusSample) {
+        // Where nobody strikes with the stylus the other end is gone, and nothing is lost.
+        if !self.ports.samples.is_abandoned() && self.ports.samples.push(sample).is_err() {
+            self.ports.timing.lose_sample();
+        }
+    }
+}
+
+impl Drop for Body {
+    fn drop(&mut self) {
+        self.device.write(Force::ZERO);
+    }
+}

@@ -1,0 +1,128 @@
+//! The actor itself.
+
+use super::HAPTIC;
+use super::seat::{Held, Seat};
+use super::timing::Timing;
+use hapticbillard::ball::BallPlace;
+use hapticbillard::cue::Aim;
+use hapticbillard::events::Health;
+use hapticbillard::haptic::{SafetyFlags, ServoReport, stiffness_for};
+use hapticbillard::ids::BallId;
+use kameo::prelude::*;
+use std::sync::Arc;
+
+/// Ticks before the lateness is taken for what it will be.
+const TICKS_MIN: u64 = 1000;
+/// The share of wakes that a stiffness must bear.
+const SHARE: f64 = 0.99;
+/// A greatest stiffness that differs less is left as it is.
+const CLOSE: f64 = 0.05;
+
+/// Controls a servo while it lives.
+#[derive(Actor)]
+pub struct Haptic {
+    held: Held,
+    told: SafetyFlags,
+    was_running: bool,
+}
+
+impl Haptic {
+    /// Takes hold of a servo. None while somebody else does.
+    pub fn new(seat: &Arc<Seat>) -> Option<Self> {
+        let held = seat.hold()?;
+        Some(Haptic { held, told: SafetyFlags::default(), was_running: true })
+    }
+}
+
+/// Look at the servo.
+pub struct Look;
+
+/// What was seen.
+#[derive(Debug, Clone, PartialEq, Reply)]
+pub struct Looked {
+    /// The last tick.
+    pub report: ServoReport,
+    /// The greatest stiffness now [N/m].
+    pub stiffness_max_n_m: f64,
+    /// What the player should be told, if anything.
+    pub news: Vec<Health>,
+}
+
+impl Message<Look> for Haptic {
+    type Reply = Looked;
+
+    async fn handle(&mut self, _: Look, _: &mut Context<Self, Looked>) -> Looked {
+        let report = self.held.report();
+        self.adapt();
+        self.follow(&report);
+        let news = self.news(report.flags);
+        Looked { report, stiffness_max_n_m: self.held.orders().stiffness_max_n_m, news }
+    }
+}
+
+impl Haptic {
+    /// The greatest stiffness follows the lateness.
+    fn adapt(&mut self) {
+        let seat = self.held.seat().clone();
+        let orders = *self.held.orders();
+        let stiffness_max_n_m = allowed(&seat, seat.timing());
+        let change = (stiffness_max_n_m - orders.stiffness_max_n_m).abs();
+        if change > CLOSE * orders.stiffness_max_n_m {
+            self.held.order(super::Orders { stiffness_max_n_m, ..orders });
+        }
+    }
+
+    /// The workspace follows the cue ball from shot to shot; it keeps its direction.
+    fn follow(&mut self, report: &ServoReport) {
+        let seat = self.held.seat().clone();
+        let Some(told) = seat.mail().last() else { return };
+        let orders = *self.held.orders();
+        let (Some(lay), Some(reach)) = (seat.lay(), orders.reach) else { return };
+        let Some(cue_ball) = told.table.ball(BallId::CUE) else { return };
+        if cue_ball.place != BallPlace::OnTable || cue_ball.position == reach.pivot {
+            return;
+        }
+        let (azimuth_rad, elevation_rad) = (report.azimuth_rad, report.elevation_rad);
+        let aim = Aim { azimuth_rad, elevation_rad, ..Aim::default() };
+        let reach = lay.to(reach.serial.wrapping_add(1), cue_ball.position, &aim);
+        self.held.order(super::Orders { reach: Some(reach), ..orders });
+    }
+
+    /// What is wrong and was right when looked at last; and the other way round.
+    fn news(&mut self, flags: SafetyFlags) -> Vec<Health> {
+        let mut news = Vec::new();
+        let mut failed = |reason: &str| {
+            news.push(Health::ActorFailed { actor: HAPTIC.into(), reason: reason.into() });
+        };
+        let (told, was_running) = (self.told, self.was_running);
+        self.told = flags;
+        self.was_running = self.held.seat().is_running();
+        let wrong = [
+            (SafetyFlags::NOT_FINITE, "the device says no numbers: no force"),
+            (SafetyFlags::STALE, "the world stands still: the force fades out"),
+            (SafetyFlags::DISCONNECTED, "the device is not ready: no force"),
+        ];
+        for (flag, reason) in wrong.iter().filter(|(flag, _)| flags.has(*flag) && !told.has(*flag))
+        {
+            log::warn!("{HAPTIC} ({flag:?}): {reason}");
+            failed(reason);
+        }
+        if was_running && !self.was_running {
+            failed("the servo ended; the device is without force");
+        }
+        let is_fine = |flags: SafetyFlags| wrong.iter().all(|(flag, _)| !flags.has(*flag));
+        if is_fine(flags) && !is_fine(told) && self.was_running {
+            news.push(Health::ActorRestarted { actor: HAPTIC.into() });
+        }
+        news
+    }
+}
+
+/// The greatest stiffness that the lateness allows [N/m].
+fn allowed(seat: &Seat, timing: &Timing) -> f64 {
+    let late_s = match timing.ticks() {
+        ticks if ticks < TICKS_MIN => 0.0,
+        _ => timing.lateness.quantile(SHARE) as f64 * 1e-9,
+    };
+    stiffness_for(seat.spec(), late_s)
+}

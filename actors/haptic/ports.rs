@@ -1,0 +1,217 @@
+//! What goes into the servo's thread and what comes out, wait-free on both sides.
+//!
+//! | | carries | when nobody takes it |
+//! |---|---|---|
+//! | [`Orders`] in | effects, reach, greatest stiffness | the newest counts |
+//! | [`Balls`] in | balls in play, a heartbeat of the world | the newest counts |
+//! | [`Signs`] in | the heartbeat in pause, the dead man's switch | – |
+//! | report out | everything about the last tick | the newest counts |
+//! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
+//! | edges out | every press and release, in order | the same; a sample tells what is held |
+
+use super::timing::Timing;
+use hapticbillard::ball::Ball;
+use hapticbillard::haptic::{
+    BALLS_MAX, Buttons, EffectSet, HapticBall, Reach, ServoReport, StylusSample,
+};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::units::Seconds;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// Samples that wait at most: a quarter of a second.
+const SAMPLES: usize = 256;
+/// Button edges that wait at most: a second of one in every tick.
+const EDGES: usize = 1024;
+
+/// What is to be felt besides the balls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orders {
+    /// Forces that belong to no body.
+    pub effects: EffectSet,
+    /// How the device reaches into the world.
+    pub reach: Option<Reach>,
+    /// Nothing is stiffer than this [N/m].
+    pub stiffness_max_n_m: f64,
+}
+
+/// The balls in play at one time.
+#[derive(Debug, Clone, Copy)]
+pub struct Balls {
+    /// Counts up with every state of the world.
+    pub serial: u64,
+    /// The time [s].
+    pub time_s: Seconds,
+    /// The last sample that physics had taken in.
+    pub sample_seen: u64,
+    /// Only the first `count` count.
+    pub balls: [HapticBall; BALLS_MAX],
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Default for Balls {
+    fn default() -> Self {
+        Balls {
+            serial: 0,
+            time_s: 0.0,
+            sample_seen: 0,
+            balls: [HapticBall::NONE; BALLS_MAX],
+            count: 0,
+        }
+    }
+}
+
+/// Two signs of life that the servo looks at in every tick.
+#[derive(Debug, Default)]
+pub struct Signs {
+    heartbeat: AtomicU64,
+    held: AtomicBool,
+    seen: AtomicU64,
+}
+
+impl Signs {
+    /// The world stands still on purpose: whoever paused it says so, again and again. A servo that
+    /// gets neither this nor new balls for 20 ms fades out.
+    pub fn beat(&self) {
+        self.heartbeat.fetch_add(1, Ordering::Release);
+    }
+
+    /// How often it beat.
+    pub fn heartbeat(&self) -> u64 {
+        self.heartbeat.load(Ordering::Acquire)
+    }
+
+    /// The dead man's switch: nothing is felt while nobody holds it.
+    pub fn hold(&self, held: bool) {
+        self.held.store(held, Ordering::Release);
+    }
+
+    /// Whether somebody holds it.
+    pub fn is_held(&self) -> bool {
+        self.held.load(Ordering::Acquire)
+    }
+
+    /// Physics has taken in the samples up to this one.
+    pub fn see(&self, sample: u64) {
+        self.seen.store(sample, Ordering::Release);
+    }
+
+    /// The last sample that physics has taken in.
+    pub fn seen(&self) -> u64 {
+        self.seen.load(Ordering::Acquire)
+    }
+}
+
+/// A press or a release.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ButtonEdge {
+    /// Which tick of the servo.
+    pub tick: u64,
+    /// Which button.
+    pub button: Buttons,
+    /// Pressed, not released.
+    pub down: bool,
+}
+
+/// The servo's end.
+pub struct ServoPorts {
+    pub(super) orders: triple_buffer::Output<Orders>,
+    pub(super) balls: triple_buffer::Output<Balls>,
+    pub(super) signs: Arc<Signs>,
+    pub(super) report: triple_buffer::Input<ServoReport>,
+    pub(super) samples: rtrb::Producer<StylusSample>,
+    pub(super) buttons: rtrb::Producer<ButtonEdge>,
+    pub(super) timing: Arc<Timing>,
+}
+
+/// The end of whoever controls it.
+pub struct ControlPorts {
+    /// What is to be felt.
+    pub orders: triple_buffer::Input<Orders>,
+    /// The last tick.
+    pub report: triple_buffer::Output<ServoReport>,
+    /// How punctual it is.
+    pub timing: Arc<Timing>,
+}
+
+/// The end of whoever strikes with it.
+pub struct StylusPorts {
+    /// Every sample, while they are taken.
+    pub samples: rtrb::Consumer<StylusSample>,
+    /// Every button edge.
+    pub buttons: rtrb::Consumer<ButtonEdge>,
+    /// Where it says what physics has seen.
+    pub signs: Arc<Signs>,
+}
+
+/// The end of whoever moves balls.
+pub struct WorldPort {
+    serial: u64,
+    bodies: Vec<Ball>,
+    balls: triple_buffer::Input<Balls>,
+    signs: Arc<Signs>,
+}
+
+impl WorldPort {
+    /// The balls are now as `table` says. Those beyond [`BALLS_MAX`] are not felt.
+    pub fn show(&mut self, table: &Snapshot) {
+        let slot = self.balls.input_buffer_mut();
+        self.serial += 1;
+        slot.serial = self.serial;
+        (slot.time_s, slot.sample_seen, slot.count) = (table.time_s, self.signs.seen(), 0);
+        for state in table.on_table() {
+            let Ok(index) = self.bodies.binary_search_by_key(&state.id, |ball| ball.id) else {
+                continue;
+            };
+            if slot.count < BALLS_MAX {
+                slot.balls[slot.count] = HapticBall::of(&self.bodies[index], state);
+                slot.count += 1;
+            }
+        }
+        self.balls.publish();
+    }
+}
+
+/// All ends.
+pub struct AllPorts {
+    /// The servo's.
+    pub servo: ServoPorts,
+    /// The control's.
+    pub control: ControlPorts,
+    /// The stylus'.
+    pub stylus: StylusPorts,
+    /// The world's.
+    pub world: WorldPort,
+    /// For whoever lets hearts beat.
+    pub signs: Arc<Signs>,
+}
+
+impl AllPorts {
+    /// Slots and rings between a servo and a world with these balls.
+    pub fn new(orders: Orders, mut bodies: Vec<Ball>) -> Self {
+        bodies.sort_by_key(|ball| ball.id);
+        let (orders_in, orders_out) = triple_buffer::triple_buffer(&orders);
+        let (balls_in, balls_out) = triple_buffer::triple_buffer(&Balls::default());
+        let (report_in, report_out) = triple_buffer::triple_buffer(&ServoReport::default());
+        let (samples_in, samples_out) = rtrb::RingBuffer::new(SAMPLES);
+        let (edges_in, edges_out) = rtrb::RingBuffer::new(EDGES);
+        let signs = Arc::new(Signs::default());
+        let timing = Arc::new(Timing::default());
+        AllPorts {
+            servo: ServoPorts {
+                orders: orders_out,
+                balls: balls_out,
+                signs: signs.clone(),
+                report: report_in,
+                samples: samples_in,
+                buttons: edges_in,
+                timing: timing.clone(),
+            },
+            control: ControlPorts { orders: orders_in, report: report_out, timing },
+            stylus: StylusPorts { samples: samples_out, buttons: edges_out, signs: signs.clone() },
+            world: WorldPort { serial: 0, bodies, balls: balls_in, signs: signs.clone() },
+            signs,
+        }
+    }
+}

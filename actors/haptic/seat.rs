@@ -1,0 +1,193 @@
+//! The servo's place in the runtime: thread and device stay here while controls come and go, since
+//! a vendor's library cannot be loaded twice. Whoever controls holds the dead man's switch; a
+//! control that is gone, for whatever reason, has let go of it.
+
+use super::body::Body;
+use super::ports::{ControlPorts, Signs, StylusPorts, WorldPort};
+use super::rights::{Asked, Obtained};
+use super::thread::{NoServo, ServoThread};
+use super::timing::Timing;
+use super::{AllPorts, Opened, Orders};
+use crate::event_manager::Sink;
+use glam::DVec3;
+use hapticbillard::ball::Ball;
+use hapticbillard::cue::Aim;
+use hapticbillard::events::{Topic, Topics};
+use hapticbillard::haptic::{
+    DeviceSpec, EffectSet, HapticMesh, Reach, ReachSettings, Servo, ServoSettings, stiffness_for,
+};
+use hapticbillard::physics::Parameters;
+use hapticbillard::tick::Delivered;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// What a servo is made of.
+pub struct Plan {
+    /// The device, and the way into its hand.
+    pub opened: Opened,
+    /// What is asked of the operating system.
+    pub asked: Asked,
+    /// What is fixed and can be felt.
+    pub mesh: Option<Arc<HapticMesh>>,
+    /// Forces that belong to no body.
+    pub effects: EffectSet,
+    /// How the device reaches into the world.
+    pub reach: Option<Reach>,
+    /// How the workspace is laid anew when another shot begins; none: it stays where it is.
+    pub lay: Option<Lay>,
+    /// The balls that there can be.
+    pub bodies: Vec<Ball>,
+}
+
+/// How a workspace is laid to the cue ball.
+#[derive(Debug, Clone)]
+pub struct Lay {
+    /// The workspace.
+    pub settings: ReachSettings,
+    /// The cue.
+    pub parameters: Parameters,
+}
+
+impl Lay {
+    /// The workspace in front of a cue ball at `pivot` [m], seen along `aim`.
+    pub fn to(&self, serial: u32, pivot: DVec3, aim: &Aim) -> Reach {
+        Reach::to_ball(serial, pivot, aim, &self.settings, &self.parameters)
+    }
+}
+
+/// Mail that waits for a control at most; it only says where the cue ball lies.
+const MAIL: usize = 64;
+
+/// A servo that runs, and the ends that belong to others.
+pub struct Started {
+    /// Its place.
+    pub seat: Arc<Seat>,
+    /// For physics.
+    pub world: WorldPort,
+    /// For whoever strikes with the stylus; where nobody does it is dropped.
+    pub stylus: StylusPorts,
+}
+
+/// Thread, device and the control's ports.
+pub struct Seat {
+    thread: ServoThread,
+    spec: DeviceSpec,
+    lay: Option<Lay>,
+    mail: (flume::Sender<Delivered>, flume::Receiver<Delivered>),
+    /// With what was ordered last: another control goes on with it.
+    control: Mutex<Option<(ControlPorts, Orders)>>,
+}
+
+impl Seat {
+    /// Starts a servo. Nothing is felt until a control takes hold of it.
+    ///
+    /// # Errors
+    /// [`NoServo`] if there is no thread.
+    pub fn start(plan: Plan) -> Result<Started, NoServo> {
+        let Plan { opened, asked, mesh, effects, reach, lay, bodies } = plan;
+        let spec = opened.device.spec();
+        let servo = Servo::new(ServoSettings::of(&spec));
+        let servo = match mesh {
+            Some(mesh) => servo.among(mesh),
+            None => servo,
+        };
+        let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
+        let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
+        let thread = ServoThread::start(Body::new(opened.device, servo, ports), asked)?;
+        let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some((control, orders))));
+        let seat = Seat { thread, spec, lay, mail, control };
+        Ok(Started { seat: Arc::new(seat), world, stylus })
+    }
+
+    /// What the thread got.
+    pub fn obtained(&self) -> &Obtained {
+        self.thread.obtained()
+    }
+
+    /// How punctual it is.
+    pub fn timing(&self) -> &Timing {
+        self.thread.timing()
+    }
+
+    /// Its signs of life.
+    pub fn signs(&self) -> &Arc<Signs> {
+        self.thread.signs()
+    }
+
+    /// Whether it turns.
+    pub fn is_running(&self) -> bool {
+        self.thread.is_running()
+    }
+
+    /// The device.
+    pub fn spec(&self) -> &DeviceSpec {
+        &self.spec
+    }
+
+    /// How its workspace is laid anew.
+    pub fn lay(&self) -> Option<&Lay> {
+        self.lay.as_ref()
+    }
+
+    /// What its control wants to be told, and where to.
+    pub fn sink(&self) -> Sink {
+        let topics = Topics::of(&[Topic::Turn, Topic::Settled, Topic::BallPlaced]);
+        Sink { topics, mail: self.mail.0.clone(), dropped: Arc::default() }
+    }
+
+    /// What the control was told.
+    pub fn mail(&self) -> impl Iterator<Item = Delivered> {
+        self.mail.1.try_iter()
+    }
+
+    /// Takes hold of the servo. None while somebody else does.
+    pub fn hold(self: &Arc<Self>) -> Option<Held> {
+        let (ports, orders) = self.slot().take()?;
+        self.signs().hold(true);
+        Some(Held { ports: Some(ports), orders, seat: self.clone() })
+    }
+
+    fn slot(&self) -> std::sync::MutexGuard<'_, Option<(ControlPorts, Orders)>> {
+        // Nothing is done under the lock that could leave it half done.
+        self.control.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Hold of a servo. Dropping it lets go: from the servo's next tick on nothing is felt.
+pub struct Held {
+    seat: Arc<Seat>,
+    orders: Orders,
+    /// None only while this is dropped.
+    ports: Option<ControlPorts>,
+}
+
+impl Held {
+    /// The servo.
+    pub fn seat(&self) -> &Arc<Seat> {
+        &self.seat
+    }
+
+    /// What is to be felt.
+    pub fn orders(&self) -> &Orders {
+        &self.orders
+    }
+
+    /// From now on something else is to be felt.
+    pub fn order(&mut self, orders: Orders) {
+        self.orders = orders;
+        if let Some(ports) = &mut self.ports {
+            ports.orders.write(orders);
+        }
+    }
+
+    /// The servo's last tick.
+    pub fn report(&mut self) -> hapticbillard::haptic::ServoReport {
+        self.ports.as_mut().map(|ports| *ports.report.read()).unwrap_or_default()
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        self.seat.signs().hold(false);
+        *self.seat.slot() = self.ports.take().map(|ports| (ports, self.orders));
+    }
+}

@@ -1,0 +1,173 @@
+//! The stylus as a player's hand: its samples become the path of the cue.
+//!
+//! The truth of a stroke is physics': it gets the tip of every millisecond. Servo and game have
+//! clocks of their own, so a few samples wait on purpose. When the game lags, or the samples stop,
+//! the cue goes on without touching balls until the stabiliser has let go: a stroke with a hole in
+//! it would not be the player's.
+
+use super::ports::StylusPorts;
+use hapticbillard::cue::CuePath;
+use hapticbillard::event_manager::Publication;
+use hapticbillard::events::{Command, Event};
+use hapticbillard::haptic::StylusSample;
+use hapticbillard::tick::{Frame, FrameSource, Inflow};
+use hapticbillard::units::{Seconds, TICK_S, Tick};
+use std::sync::Arc;
+
+/// Samples that wait before the first is used: longer than the pacer sleeps at a time.
+const WAITING: usize = 8;
+/// More than these are a lag: the oldest are left out.
+const WAITING_MAX: usize = WAITING + 20;
+/// How long a piece of the path holds [s]; the next tick's replaces it.
+const PIECE_S: Seconds = 5.0 * TICK_S;
+
+/// The samples of a stylus on their way to physics.
+pub struct Stylus {
+    ports: StylusPorts,
+    last: Option<StylusSample>,
+    is_flowing: bool,
+    is_disarmed: bool,
+    left_out: u64,
+}
+
+impl Stylus {
+    /// A stylus that has not moved.
+    pub fn new(ports: StylusPorts) -> Self {
+        Stylus { ports, last: None, is_flowing: false, is_disarmed: false, left_out: 0 }
+    }
+
+    /// How many samples were left out because the game lagged.
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// What enters in `tick`.
+    pub fn frame(&mut self, tick: Tick) -> Frame {
+        let mut frame = Frame::new();
+        let Some(sample) = self.next() else { return frame };
+        self.is_disarmed &= sample.stabilised;
+        if let Some(before) = self.last.replace(sample) {
+            let solid = sample.stabilised && before.stabilised && !self.is_disarmed;
+            let piece = sample.piece(&before, tick.start_s(), PIECE_S);
+            let path = CuePath { solid, pieces: std::iter::once(piece).collect() };
+            let event = Event::Command(Command::MoveCue(Arc::new(path)));
+            frame.push(Publication { event, delay_ticks: 0, label: None });
+        }
+        self.ports.signs.see(sample.tick);
+        frame
+    }
+
+    /// The sample of this tick, if the samples flow.
+    fn next(&mut self) -> Option<StylusSample> {
+        let waiting = self.ports.samples.slots();
+        if !self.is_flowing && waiting < WAITING {
+            return None;
+        }
+        self.is_flowing = true;
+        if waiting > WAITING_MAX {
+            for _ in WAITING..waiting {
+                self.left_out += u64::from(self.ports.samples.pop().is_ok());
+            }
+            self.is_disarmed = true;
+        }
+        let sample = self.ports.samples.pop().ok();
+        if sample.is_none() {
+            self.is_flowing = false;
+            self.is_disarmed = true;
+        }
+        // Where nothing is reached the tip is nowhere: there is no way to or from there.
+        sample.filter(|sample| {
+            let is_somewhere = sample.direction.is_normalized();
+            if !is_somewhere {
+                self.last = None;
+            }
+            is_somewhere
+        })
+    }
+}
+
+impl FrameSource for Stylus {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        Inflow { frame: self.frame(tick), ..Inflow::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ports::{AllPorts, Orders};
+    use super::*;
+    use glam::DVec3;
+    use hapticbillard::haptic::EffectSet;
+
+    /// A stylus, and its hand: it moves on by a millimetre per sample.
+    fn stylus() -> (Stylus, impl FnMut(u32, bool)) {
+        let orders =
+            Orders { effects: EffectSet::default(), reach: None, stiffness_max_n_m: 100.0 };
+        let AllPorts { mut servo, stylus, .. } = AllPorts::new(orders, Vec::new());
+        let mut tick = 0;
+        let push = move |n: u32, stabilised| {
+            for _ in 0..n {
+                tick += 1;
+                let tip = DVec3::X * 0.001 * tick as f64;
+                let (velocity, direction) = (DVec3::X, DVec3::X);
+                let sample = StylusSample {
+                    tick,
+                    dt: 0.001,
+                    tip,
+                    velocity,
+                    direction,
+                    stabilised,
+                    ..StylusSample::default()
+                };
+                servo.samples.push(sample).unwrap();
+            }
+        };
+        (Stylus::new(stylus), push)
+    }
+
+    /// Where the path of a tick begins [m], and whether it touches balls.
+    fn begin(stylus: &mut Stylus, tick: u64) -> Option<(f64, bool)> {
+        match &stylus.frame(Tick(tick)).first()?.event {
+            Event::Command(Command::MoveCue(path)) => Some((path.pieces[0].position.x, path.solid)),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn samples_wait_a_little_and_are_joined_without_a_gap() {
+        let (mut stylus, mut push) = stylus();
+        push(7, true);
+        assert_eq!(begin(&mut stylus, 1), None);
+        push(2, true);
+        // The first is where the path begins.
+        assert_eq!(begin(&mut stylus, 2), None);
+        for tick in 3..500 {
+            push(1, true);
+            let (at, solid) = begin(&mut stylus, tick).unwrap();
+            assert!((at - 0.001 * (tick - 2) as f64).abs() < 1e-9 && solid, "{tick}: {at}");
+        }
+        assert_eq!(stylus.left_out(), 0);
+        assert_eq!(stylus.ports.signs.seen(), 498);
+    }
+
+    #[test]
+    fn a_game_that_lags_and_samples_that_stop_take_the_stroke_away() {
+        let (mut stylus, mut push) = stylus();
+        push(20, true);
+        begin(&mut stylus, 1);
+        assert_eq!(begin(&mut stylus, 2).map(|(_, solid)| solid), Some(true));
+        push(30, true);
+        assert_eq!(begin(&mut stylus, 3).map(|(_, solid)| solid), Some(false));
+        assert_eq!(stylus.left_out(), 40);
+        // The next stroke counts again.
+        push(1, false);
+        push(9, true);
+        let solid: Vec<bool> =
+            (4..20).filter_map(|tick| begin(&mut stylus, tick)).map(|(_, solid)| solid).collect();
+        assert_eq!(solid.len(), 16);
+        assert!(!solid[6] && solid[10], "{solid:?}");
+        while begin(&mut stylus, 21).is_some() {}
+        push(10, true);
+        assert_eq!(begin(&mut stylus, 22).map(|(_, solid)| solid), Some(false));
+    }
+}
