@@ -13,7 +13,7 @@ pub const CHAOS: &str = "chaos.svg";
 const LEAST_M: f64 = 1e-17;
 /// Width and height [pixels].
 const SIZE: (u32, u32) = (1380, 470);
-/// Height of the legend [pixels].
+/// Height of a row of the legend [pixels]; methods stand above other programs.
 const KEY_PIXELS: u32 = 30;
 /// The methods in steps and their colours: Okabe and Ito's, which colour-blind readers can tell.
 const LINES: [(&str, RGBColor); 6] = [
@@ -72,7 +72,8 @@ pub fn scene(measured: &Measured, peers: Option<&Peers>) -> Result<String, Error
         area.fill(&WHITE).map_err(failed)?;
         let area =
             area.titled(measured.prepared.scene.title, ("sans-serif", 20)).map_err(failed)?;
-        let (charts, key) = area.split_vertically(area.dim_in_pixel().1 - KEY_PIXELS);
+        let rows = if others_by_time.is_empty() { 1 } else { 2 };
+        let (charts, key) = area.split_vertically(area.dim_in_pixel().1 - rows * KEY_PIXELS);
         let panels = charts.split_evenly((1, 3));
         if let [by_step, by_time, by_work] = &panels[..] {
             let step = |timed: &Timed| timed.row.method.step_ms();
@@ -108,6 +109,7 @@ fn legend(area: &Area<'_>, others: &[Curve<'_>]) -> Result<(), Error> {
         area.draw(&Text::new(name, (x + 28, y - 6), style)).map_err(failed)?;
         x += 36 + 6 * name.len() as i32;
     }
+    let (mut x, y) = (16, KEY_PIXELS as i32 * 3 / 2);
     let mut seen = Vec::new();
     for curve in others {
         // The settings of a program share a colour and a name.
@@ -116,7 +118,6 @@ fn legend(area: &Area<'_>, others: &[Curve<'_>]) -> Result<(), Error> {
         }
         seen.push(curve.number);
         let colour = OTHERS[curve.number % OTHERS.len()];
-        let y = KEY_PIXELS as i32 / 2;
         area.draw(&Cross::new((x + 11, y), 4, colour.stroke_width(1))).map_err(failed)?;
         let style = ("sans-serif", 13).into_font().color(&BLACK);
         area.draw(&Text::new(curve.name, (x + 20, y - 6), style)).map_err(failed)?;

@@ -34,7 +34,7 @@ pub fn page(
     quick: bool,
 ) -> String {
     let mut text = String::new();
-    head(&mut text, quick);
+    head(&mut text, quick, peers.is_some());
     glance::glance(&mut text, measured);
     if let Some(peers) = peers {
         peers::chapter(&mut text, measured, peers);
@@ -51,11 +51,12 @@ pub fn page(
     text
 }
 
-fn head(text: &mut String, quick: bool) {
+fn head(text: &mut String, quick: bool, peers: bool) {
     let name = new_recording_name();
     let date = name.split('_').next().unwrap_or_default();
     let build = if cfg!(debug_assertions) { "with debug assertions" } else { "optimised" };
     let flag = if quick { " --quick" } else { "" };
+    let others = if peers { " --peers tests/report/peers.json" } else { "" };
     say!(text, "# Error against run time\n");
     say!(
         text,
@@ -67,8 +68,8 @@ fn head(text: &mut String, quick: bool) {
     say!(
         text,
         "Made anew by one command, from the root of the repository:\n\n```text\ncargo run \
-         --release -p hapticbillard-actors --no-default-features -- report{flag} --out \
-         tests/report\n```\n"
+         --release -p hapticbillard-actors --no-default-features -- report{flag}{others} \
+         --out tests/report\n```\n"
     );
     say!(
         text,
