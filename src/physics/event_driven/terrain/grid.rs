@@ -20,7 +20,7 @@ const CELLS_PER_PART: i32 = 16;
 const CUTS: i32 = 3;
 
 /// A cell that lists more than this is cut, if it may be.
-const LISTED_MAX: usize = 16;
+const LISTED_MAX: usize = 24;
 
 /// Something is beside a feature if it is by this much [m]; far more than a ball is ever pressed
 /// into a face.
@@ -105,10 +105,14 @@ impl Terrain {
         self.find_leaps(&cells);
         self.plans = self.draw_plans(&cells, CUTS);
         self.nodes = vec![Node::default(); cells.len()];
-        for (index, parts) in cells.iter().enumerate() {
+        // What a cell's list took is free again before the next is filled.
+        let mut last = (Parts::default(), Listed::default());
+        for (index, parts) in cells.into_iter().enumerate() {
             let low = self.cell_at(index) << CUTS;
-            self.fill(index, parts, low, 1 << CUTS);
+            self.fill(index, &parts, low, 1 << CUTS, &mut last);
         }
+        self.lists.shrink();
+        self.nodes.shrink_to_fit();
     }
 
     /// The coarse cell with this number.
@@ -171,8 +175,16 @@ impl Terrain {
         self.bare = rings(&bare, count);
     }
 
-    /// Lists what a cell has in reach, or cuts it if that is too much.
-    fn fill(&mut self, node: usize, parts: &Parts, low: IVec3, size: i32) {
+    /// Lists what a cell has in reach, or cuts it if that is too much. `last` is what was listed
+    /// last: neighbours often list the same, and then once.
+    fn fill(
+        &mut self,
+        node: usize,
+        parts: &Parts,
+        low: IVec3,
+        size: i32,
+        last: &mut (Parts, Listed),
+    ) {
         if size > 1 && parts.len() > LISTED_MAX {
             let (first, half) = (self.nodes.len(), size / 2);
             self.nodes[node].children = first as u32;
@@ -181,16 +193,20 @@ impl Terrain {
                 let low = low + IVec3::new(child & 1, child >> 1 & 1, child >> 2) * half;
                 let space = self.space(low, half);
                 let kept = self.kept(parts, &space);
-                self.fill(first + child as usize, &kept, low, half);
+                self.fill(first + child as usize, &kept, low, half, last);
             }
             return;
         }
         let space = self.space(low, size);
         let parts = self.kept(parts, &space);
-        let mut lists = core::mem::take(&mut self.lists);
-        let listed = self.list(&self.with_whole(parts, &space), &mut lists);
-        self.lists = lists;
-        self.nodes[node] = Node { children: 0, listed };
+        let parts = self.with_whole(parts, &space);
+        if parts != last.0 {
+            let mut lists = core::mem::take(&mut self.lists);
+            let listed = self.list(&parts, &mut lists);
+            self.lists = lists;
+            *last = (parts, listed);
+        }
+        self.nodes[node] = Node { children: 0, listed: last.1 };
     }
 
     /// What of some parts a ball with its centre in `space` can touch.

@@ -207,6 +207,16 @@ fn rectangles(field: &[u32], count: IVec2) -> (Vec<(IVec2, IVec2)>, Vec<u32>) {
     (found, owner)
 }
 
+impl Lists {
+    /// Gives back what is not needed.
+    pub fn shrink(&mut self) {
+        self.groups.shrink_to_fit();
+        self.triangles.shrink_to_fit();
+        self.edges.shrink_to_fit();
+        self.corners.shrink_to_fit();
+    }
+}
+
 /// Parts in a row, as cells and zones name them.
 #[derive(Debug, Default)]
 pub struct Lists {
