@@ -19,7 +19,7 @@ mod claims;
 mod cue_strike;
 mod flight;
 mod free;
-mod haptic;
+pub(crate) mod haptic;
 mod impacts;
 mod learner;
 mod on_mesh;

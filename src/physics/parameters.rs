@@ -1,6 +1,7 @@
 //! The numbers of the contact laws.
 
 use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
+use super::laws::cloth::Carrying;
 use super::laws::mathavan_2010;
 use super::laws::speed_friction::FrictionCurve;
 use super::{ExactTolerances, PhysicsSettings, Profile};
@@ -147,6 +148,15 @@ impl Parameters {
             Surface::Pocket(_) | Surface::PocketBottom(_) => self.pocket,
             Surface::Wood | Surface::Floor => self.wood,
             Surface::Obstacle => self.obstacle,
+        }
+    }
+
+    /// What a surface of that friction does to a ball that it carries.
+    pub fn carrying(&self, friction: f64) -> Carrying {
+        Carrying {
+            friction,
+            rolling_resistance: self.rolling_resistance,
+            spin_deceleration_rad_s2: self.spin_deceleration_rad_s2,
         }
     }
 

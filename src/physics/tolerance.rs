@@ -7,9 +7,12 @@ use crate::units::Seconds;
 /// break becomes a cascade of pairs that amplifies micrometres of jitter to metres per second.
 pub const CLUSTER_M: f64 = 1e-4;
 
-/// A contact closes if its normal speed exceeds this [m/s]; prediction asks for twice as much, so
-/// that a resolved contact is not predicted again at once. Larger: balls creep into each other.
+/// A contact closes if its normal speed exceeds this [m/s]. Larger: balls creep into each other.
 pub const CLOSING_M_S: f64 = 1e-5;
+
+/// Contacts that close more slowly than this are pressed, not struck [m/s]. Prediction asks for so
+/// much, so that a resolved contact is not predicted again at once.
+pub const STRUCK_M_S: f64 = 2.0 * CLOSING_M_S;
 
 /// Below this approach speed two balls, or a ball and a cushion, stay together [m/s]. Larger:
 /// slow kisses die.

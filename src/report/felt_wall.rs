@@ -6,10 +6,9 @@
 //! and late by half of it in the mean, so the error is about ω T of the peak, and the stylus leaves
 //! faster by about π ω T/4.
 
-use crate::haptic::simulated::{Guide, HandModel, HandScript, SimulatedDevice};
-use crate::haptic::{
-    Device, DeviceSpec, Effect, EffectSet, HapticScene, SafetySettings, Servo, ServoSettings,
-};
+use crate::haptic::DeviceSpec;
+use crate::haptic::simulated::{HandModel, HandScript};
+use crate::validation::haptic::{Bench, wall};
 use glam::DVec3;
 
 /// Stiffness of the wall [N/m]: what the makers of the Omni promise.
@@ -68,36 +67,21 @@ fn one_tap(spec: DeviceSpec, part: f64) -> (f64, Option<f64>) {
     let period_s = spec.period_s();
     let start = DVec3::X * (-SPEED_M_S * period_s * part);
     let script = HandScript::drawn(start, Vec::new());
-    let device = SimulatedDevice::new(spec, HandModel::None, Guide::Script(script));
-    let mut device = device.pushed(DVec3::ZERO, DVec3::X * SPEED_M_S);
-    let mut servo = Servo::new(ServoSettings {
-        velocity_filter_hz: f64::INFINITY,
-        stiffness_max_n_m: f64::INFINITY,
-        safety: SafetySettings::OFF,
-        ..ServoSettings::of(&spec)
-    });
-    let wall = Effect::Plane {
-        normal: DVec3::NEG_X,
-        offset_m: 0.0,
-        stiffness_n_m: STIFFNESS_N_M,
-        damping_ns_m: 0.0,
-    };
-    let mut scene = HapticScene { effects: EffectSet::of(1, &[wall]), ..HapticScene::default() };
+    let mut bench = Bench::new(spec, HandModel::None, script, wall(STIFFNESS_N_M, 0.0));
+    bench.device = bench.device.pushed(DVec3::ZERO, DVec3::X * SPEED_M_S);
     let swing_s = core::f64::consts::PI / omega(&spec);
     let peak_n = STIFFNESS_N_M * SPEED_M_S / omega(&spec);
     let ticks = (SWINGS_MAX * swing_s / period_s) as u32 + 2;
     let mut largest_n: f64 = 0.0;
-    for tick in 0..ticks {
-        let state = device.read(if tick == 0 { 0.0 } else { period_s });
-        // The end of a hold: what acts is what was felt a period ago.
-        let spring_n = -STIFFNESS_N_M * device.position().x.max(0.0);
-        largest_n = largest_n.max((device.acting().x - spring_n).abs());
-        scene.serial += 1;
-        let force = servo.tick(&state, &scene, period_s);
-        device.write(force);
-        let free = device.position().x <= 0.0 && device.acting() == DVec3::ZERO;
-        if free && device.velocity().x < 0.0 {
-            return (largest_n / peak_n, Some(-device.velocity().x / SPEED_M_S));
+    for _ in 0..ticks {
+        // What acts up to the end of a hold was felt a period before.
+        let held_n = bench.device.acting().x;
+        bench.tick();
+        let spring_n = -STIFFNESS_N_M * bench.depth_m().max(0.0);
+        largest_n = largest_n.max((held_n - spring_n).abs());
+        let free = bench.depth_m() <= 0.0 && bench.device.acting() == DVec3::ZERO;
+        if free && bench.speed_m_s() < 0.0 {
+            return (largest_n / peak_n, Some(-bench.speed_m_s() / SPEED_M_S));
         }
     }
     (largest_n / peak_n, None)

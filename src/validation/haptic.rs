@@ -11,6 +11,7 @@ mod setup;
 mod strike;
 mod walls;
 
+pub(crate) use bench::{Bench, wall};
 pub(super) use limits::{divergence_sign, stability_limit};
 pub(super) use strike::strike_repeatability;
 pub(super) use walls::{

@@ -59,6 +59,14 @@ const IMPACT: &[&str] = &[
     "max_energy_rel_error",
 ];
 
+/// Keys of a device that is pushed into a wall.
+const PUSHED: &[&str] =
+    &["B_Ns_m", "delay_samples", "hand", "quantum_m", "coulomb_N", "force_limit_N", "bias_force_N"];
+
+/// Keys of taps on a wall, those that must be there and those that may.
+const TAPS: &[&str] = &["m_kg", "K_N_m", "T_s", "speed_m_s", "phases"];
+const TAPS_MAY: &[&str] = &["b_Ns_m", "coulomb_N", "B_Ns_m", "delay_samples"];
+
 const KINDS: &[Kind] = &[
     Kind {
         name: "single_ball_on_plane",
@@ -337,23 +345,15 @@ const KINDS: &[Kind] = &[
     },
     Kind {
         name: "bounce_gain",
-        required: &["m_kg", "K_N_m", "T_s", "speed_m_s", "phases"],
-        optional: &["b_Ns_m", "coulomb_N", "B_Ns_m", "delay_samples"],
+        required: TAPS,
+        optional: TAPS_MAY,
         expect: &["speed_ratio"],
         solved: false,
     },
     Kind {
         name: "wall_settles",
         required: &["m_kg", "b_Ns_m", "K_N_m", "T_s", "push", "duration_s", "ripple_from_s"],
-        optional: &[
-            "B_Ns_m",
-            "delay_samples",
-            "hand",
-            "quantum_m",
-            "coulomb_N",
-            "force_limit_N",
-            "bias_force_N",
-        ],
+        optional: PUSHED,
         expect: &["ripple_m", "force_ripple_N", "settles"],
         solved: false,
     },
@@ -369,22 +369,14 @@ const KINDS: &[Kind] = &[
             "ripple_from_s",
             "alpha_max_Ns_m",
         ],
-        optional: &[
-            "B_Ns_m",
-            "delay_samples",
-            "hand",
-            "quantum_m",
-            "coulomb_N",
-            "force_limit_N",
-            "bias_force_N",
-        ],
+        optional: PUSHED,
         expect: &["ripple_m", "force_ripple_N"],
         solved: false,
     },
     Kind {
         name: "energy_observer",
-        required: &["m_kg", "K_N_m", "T_s", "speed_m_s", "phases"],
-        optional: &["b_Ns_m", "coulomb_N", "B_Ns_m", "delay_samples"],
+        required: TAPS,
+        optional: TAPS_MAY,
         expect: &["energy_J", "formula_energy_J"],
         solved: false,
     },

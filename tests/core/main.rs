@@ -5,6 +5,9 @@
 
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+/// An allocator that counts.
+#[path = "../counting.rs"]
+mod counting;
 /// The exact solver over many random shots.
 mod event_driven;
 /// Order, delay and interest of the event manager.

@@ -8,6 +8,7 @@ mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
 /// An allocator that counts.
+#[path = "../counting.rs"]
 mod counting;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
@@ -16,6 +17,8 @@ mod facts;
 mod files;
 /// The haptic renderer on the bench.
 mod haptic;
+/// Somebody who hears events and keeps them.
+mod hearing;
 /// What `--json` prints, and what options change.
 mod json;
 /// Who stands in for whom.

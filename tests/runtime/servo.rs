@@ -2,19 +2,19 @@
 
 use crate::cli::folder;
 use crate::counting::calls;
+use crate::hearing::Hears;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
-use hapticbillard::events::{Event, Fact, FactKind, Health, Source, Topic, Topics, Verdict};
+use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics};
 use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
 use hapticbillard::haptic::{
     Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
     Reach, ReachSettings, SafetyFlags, Servo, ServoSettings, Touched,
 };
-use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::HapticDevice;
-use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Pace, Participant};
+use hapticbillard::tick::{Delivered, FrameSource, Inflow, Pace};
 use hapticbillard::units::{TICK_S, Tick};
 use hapticbillard_actors::event_manager::Sink;
 use hapticbillard_actors::files::load_scene;
@@ -423,35 +423,6 @@ impl FrameSource for InStep {
     }
 }
 
-/// Hears what the referee says.
-#[derive(Clone, Default)]
-struct Verdicts(Arc<Mutex<Vec<Arc<Verdict>>>>);
-
-impl Participant for Verdicts {
-    fn source(&self) -> Source {
-        Source::Runtime
-    }
-
-    fn topics(&self) -> Topics {
-        Topics::of(&[Topic::Verdict])
-    }
-
-    fn start(&mut self, _: &Snapshot) -> Outcome {
-        Outcome::default()
-    }
-
-    fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        for stamped in delivered.events.iter() {
-            if let Event::Verdict(verdict) = &stamped.event {
-                self.0.lock().unwrap().push(verdict.clone());
-            }
-        }
-        Outcome::default()
-    }
-
-    fn hash(&self, _: &mut StateHash) {}
-}
-
 const TWO_HANDS: &str = r#"
 [scene]
 name = "Two hands at a stylus"
@@ -495,7 +466,7 @@ fn a_hand_breaks_and_the_referee_judges_it() {
     let stylus = Stylus::new(stylus);
     signs.hold(true);
     let hand = InStep { body, control, table, world, stylus, felt: felt.clone() };
-    let verdicts = Verdicts::default();
+    let verdicts = Hears::of(Topic::Verdict);
     let (mail, facts) = flume::unbounded::<Delivered>();
     let sink = Sink { topics: Topics::of(&[Topic::CueBallStruck]), mail, dropped: Arc::default() };
     let setup = Setup {
@@ -523,6 +494,9 @@ fn a_hand_breaks_and_the_referee_judges_it() {
         .collect();
     // Scale and gain make 6.6 m/s of an arm at 1.2 m/s.
     assert!((speeds[0] / 6.6 - 1.0).abs() < 0.03, "{speeds:?}");
-    let verdicts = verdicts.0.lock().unwrap();
+    let verdicts = verdicts.heard(|event| match event {
+        Event::Verdict(verdict) => Some(verdict.clone()),
+        _ => None,
+    });
     assert_eq!(verdicts.len(), 1, "{verdicts:?}");
 }

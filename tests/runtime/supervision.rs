@@ -2,6 +2,7 @@
 //! another one; without anybody else the game stops in order, and can be replayed up to there.
 
 use super::cli::folder;
+use super::hearing::Hears;
 use hapticbillard::events::{Event, Health, Source, Topic, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::physics::Snapshot;
@@ -20,7 +21,7 @@ use kameo::prelude::*;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 fn stage() -> Stage {
     let name = "eight_ball_headless";
@@ -97,41 +98,12 @@ fn frail(file: &Path, length: u64, left: u32, end: Ending) -> ReplyRecipient<Rec
     Frail::spawn(Frail { inner, left, file: file.to_path_buf(), end }).reply_recipient()
 }
 
-/// Hears what the runtime says about itself.
-#[derive(Clone, Default)]
-struct Listener(Arc<Mutex<Vec<Health>>>);
-
-impl Participant for Listener {
-    fn source(&self) -> Source {
-        Source::Runtime
-    }
-
-    fn topics(&self) -> Topics {
-        Topics::of(&[Topic::Health])
-    }
-
-    fn start(&mut self, _: &Snapshot) -> Outcome {
-        Outcome::default()
-    }
-
-    fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        for stamped in delivered.events.iter() {
-            if let Event::Health(health) = &stamped.event {
-                self.0.lock().unwrap().push((**health).clone());
-            }
-        }
-        Outcome::default()
-    }
-
-    fn hash(&self, _: &mut StateHash) {}
-}
-
 #[test]
 fn a_recorder_that_dies_again_and_again_loses_not_a_byte_and_stops_no_game() {
     let (reference, whole) = undisturbed("recorder_dies");
     let endings = [Ending::Panics, Ending::Stops, Ending::LeavesHalfALine, Ending::DiskIsFull];
     let file = folder("recorder_dies").join("game.jsonl");
-    let listener = Listener::default();
+    let listener = Hears::of(Topic::Health);
     let mut starts = 0;
     let open: Open = Box::new(move |path, length| {
         starts += 1;
@@ -148,7 +120,10 @@ fn a_recorder_that_dies_again_and_again_loses_not_a_byte_and_stops_no_game() {
     assert!(!draft(&file).exists());
 
     // Whoever plays was told of each failure, and of each recovery.
-    let heard = listener.0.lock().unwrap();
+    let heard = listener.heard(|event| match event {
+        Event::Health(health) => Some((**health).clone()),
+        _ => None,
+    });
     let failed = |health: &&Health| matches!(health, Health::ActorFailed { .. });
     let failures = heard.iter().filter(failed).count();
     assert!(4 < failures, "{heard:?}");

@@ -9,9 +9,6 @@ use crate::physics::tolerance;
 use crate::units::Seconds;
 use glam::DVec3;
 
-/// Contacts that close more slowly than this are pressed, not struck [m/s].
-const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
-
 /// A contact grazes if no more than this share of the squared speed closes.
 const GRAZES: f64 = 1e-4;
 
@@ -60,7 +57,7 @@ pub fn spheres(motion: &Relative, distance_m: f64, horizon: Seconds) -> Option<S
     let exact = polynomial(distance_m);
     let time = first_falling(&exact, horizon)?;
     let speed = -slope(&exact, time) / (2.0 * distance_m);
-    if speed >= SLOWEST_M_S {
+    if speed >= tolerance::STRUCK_M_S {
         let grazes = speed * speed < GRAZES * (v + a * time).length_squared();
         return Some(if grazes { polished(motion, distance_m, time, horizon) } else { time });
     }
@@ -90,7 +87,7 @@ fn polished(motion: &Relative, distance_m: f64, time: Seconds, horizon: Seconds)
 /// When a height h + v τ + ½ a τ² above a surface first falls to zero, within `[0, horizon]`.
 pub fn height(h: f64, v: f64, a: f64, horizon: Seconds) -> Option<Seconds> {
     let time = falling_quadratic(h, v, a, horizon)?;
-    if -(v + a * time) >= SLOWEST_M_S {
+    if -(v + a * time) >= tolerance::STRUCK_M_S {
         return Some(time);
     }
     falling_quadratic(h + tolerance::PRESS_M, v, a, horizon)

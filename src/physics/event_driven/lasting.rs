@@ -19,7 +19,7 @@ use super::segment::{Course, Segment};
 use super::swing;
 use super::terrain::Feature;
 use crate::physics::laws::Mover;
-use crate::physics::laws::cloth::{self, Carrying};
+use crate::physics::laws::cloth;
 use crate::physics::laws::cluster::{self, Touch};
 use crate::physics::{Contact as Law, PhysicsError, tolerance};
 use crate::units::Seconds;
@@ -349,11 +349,7 @@ impl EventDriven {
             };
             let slip = mover.surface_velocity(touch.normal);
             let slip = slip - touch.normal * slip.dot(touch.normal);
-            let law = Carrying {
-                friction: touch.friction,
-                rolling_resistance: self.parameters.rolling_resistance,
-                spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
-            };
+            let law = self.parameters.carrying(touch.friction);
             let rolled = f64::from(slip.length() <= tolerance::ROLLING_SLIP_M_S);
             let impulse = touch.impulse.dot(touch.normal);
             lost[place] += cloth::resist(mover, touch.normal, impulse, rolled, &law, dt);

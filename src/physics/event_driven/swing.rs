@@ -131,16 +131,22 @@ impl Swing {
     }
 }
 
+/// What a spring with its dampers makes of a ball's path and of its turning.
+fn damped(ball: &Ball, spring: &Spring) -> (Option<Damped>, Option<Damped>) {
+    let inertia = ball.inertia_kg_m2();
+    (
+        Damped::new(ball.mass_kg, spring.stiffness_n_m, spring.damping_ns_m),
+        Damped::new(inertia, spring.angular_stiffness_nm_rad, spring.angular_damping_nms_rad),
+    )
+}
+
 /// A ball that flies as `start` says, if it has a spring or a damper: it swings, or hangs at rest.
 ///
 /// Weight only shifts the point of rest, by g/ω²; through a damper alone it falls evenly at g/(2 σ)
 /// in the end.
 pub fn on_spring(start: &Segment, ball: &Ball, parameters: &Parameters) -> Option<Segment> {
     let spring = ball.spring.as_ref().filter(|_| ball.flags.integrate)?;
-    let inertia = ball.inertia_kg_m2();
-    let linear = Damped::new(ball.mass_kg, spring.stiffness_n_m, spring.damping_ns_m);
-    let angular =
-        Damped::new(inertia, spring.angular_stiffness_nm_rad, spring.angular_damping_nms_rad);
+    let (linear, angular) = damped(ball, spring);
     if linear.is_none() && angular.is_none() {
         return None;
     }
@@ -218,7 +224,7 @@ impl Segment {
 /// added to `mover`; by 1 + β it is more inert for contacts, so that their impulses J hold against
 /// the spring's force.
 pub fn push(mover: &mut Mover, ball: &Ball, spring: &Spring, from: &Segment, dt: Seconds) {
-    let linear = Damped::new(ball.mass_kg, spring.stiffness_n_m, spring.damping_ns_m);
+    let (linear, angular) = damped(ball, spring);
     if let Some(Damped { omega, sigma }) = linear {
         let beta = dt * sigma + 0.25 * dt * dt * omega * omega;
         let offset = from.position - spring.anchor_m;
@@ -226,9 +232,6 @@ pub fn push(mover: &mut Mover, ball: &Ball, spring: &Spring, from: &Segment, dt:
         mover.velocity = (mover.velocity - force) / (1.0 + beta);
         mover.inverse_mass /= 1.0 + beta;
     }
-    let inertia = ball.inertia_kg_m2();
-    let angular =
-        Damped::new(inertia, spring.angular_stiffness_nm_rad, spring.angular_damping_nms_rad);
     if let Some(Damped { omega, sigma }) = angular {
         let beta = dt * sigma + 0.25 * dt * dt * omega * omega;
         let angle = rotation_vector(from.orientation * spring.anchor_orientation.inverse());

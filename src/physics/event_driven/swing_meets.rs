@@ -21,9 +21,6 @@ pub(super) const STRETCHES: usize = 128;
 /// What is this close to the reach of a swing is taken to be in it [m].
 const MARGIN_M: f64 = 1e-6;
 
-/// Contacts that close more slowly than this are pressed, and stay as they were found [m/s].
-const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
-
 /// What a ball on a spring meets of the terrain, or when to look again.
 pub(super) fn own_event(
     terrain: &Terrain,
@@ -94,13 +91,13 @@ fn on_the_swing(terrain: &Terrain, segment: &Segment, radius_m: f64, meeting: Me
 /// and not struck.
 fn refined(at: Seconds, earliest: Seconds, gap: impl Fn(Seconds) -> (f64, f64)) -> Seconds {
     let (first, rate) = gap(at);
-    if rate > -SLOWEST_M_S || first < -0.5 * tolerance::PRESS_M {
+    if rate > -tolerance::STRUCK_M_S || first < -0.5 * tolerance::PRESS_M {
         return at;
     }
     let (mut time, mut best) = (at, first.abs());
     for _ in 0..4 {
         let (off, rate) = gap(time);
-        if rate > -SLOWEST_M_S {
+        if rate > -tolerance::STRUCK_M_S {
             break;
         }
         let next = (time - off / rate).max(earliest);

@@ -223,11 +223,7 @@ impl FixedStep {
 
             // Rolling resistance and spin decay of the standard laws, or nothing would ever stop.
             // They live on the collision's part alone, whose mean is the ball's weight.
-            let law = crate::physics::laws::cloth::Carrying {
-                friction: 0.0,
-                rolling_resistance: self.parameters.rolling_resistance,
-                spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
-            };
+            let law = self.parameters.carrying(0.0);
             let slip = mover.surface_velocity(normal);
             let slip = slip - normal * slip.dot(normal);
             let rolls = slip.length() <= tolerance::ROLLING_SLIP_M_S;

@@ -205,11 +205,7 @@ impl FixedStep {
     }
 
     fn carrying(&self, support: &Support) -> Carrying {
-        Carrying {
-            friction: self.parameters.surface(support.surface).friction,
-            rolling_resistance: self.parameters.rolling_resistance,
-            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
-        }
+        self.parameters.carrying(self.parameters.surface(support.surface).friction)
     }
 
     /// One step of the chosen integrator under gravity and the ball's spring (paper, section 2.3).

@@ -52,9 +52,6 @@ impl Contact {
     }
 }
 
-/// Contacts that close more slowly are left to the next step.
-const SLOWEST_M_S: f64 = 2.0 * tolerance::CLOSING_M_S;
-
 /// Contacts of one step, and more of them for each ball, beyond which something is stuck: a light
 /// ball between a wall and a ball of ten thousand times its mass, say, meets them without end once
 /// it has lost its restitution.
@@ -254,7 +251,7 @@ impl FixedStep {
             one.path.velocity - two.path.velocity,
             one.ball.radius_m + two.ball.radius_m,
             self.h - from,
-            SLOWEST_M_S,
+            tolerance::STRUCK_M_S,
         );
         if let Some(time) = time {
             self.push_contact(from + time, a, Partner::Ball(b), DVec3::ZERO);
@@ -286,7 +283,7 @@ impl FixedStep {
             self.work.face_tests += 1;
             let (gap, speed) =
                 ((position - plane.point).dot(plane.normal) - radius, velocity.dot(plane.normal));
-            if speed < -SLOWEST_M_S && gap + speed * horizon <= 0.0 {
+            if speed < -tolerance::STRUCK_M_S && gap + speed * horizon <= 0.0 {
                 let tau = start + (gap / -speed).max(0.0);
                 self.push_contact(tau, index, Partner::Plane(number), plane.normal);
             }
@@ -303,8 +300,14 @@ impl FixedStep {
                 continue;
             }
             self.work.face_tests += 1;
-            let found =
-                narrow::first_contact(triangle, position, velocity, radius, horizon, SLOWEST_M_S);
+            let found = narrow::first_contact(
+                triangle,
+                position,
+                velocity,
+                radius,
+                horizon,
+                tolerance::STRUCK_M_S,
+            );
             if let Some((time, normal)) = found {
                 self.push_contact(start + time, index, Partner::Face(*face), normal);
             }

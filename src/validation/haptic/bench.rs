@@ -12,7 +12,7 @@ use glam::DVec3;
 const PERIOD_S: (f64, f64) = (1e-5, 1.0);
 
 /// The loop.
-pub(super) struct Bench {
+pub(crate) struct Bench {
     pub device: SimulatedDevice,
     pub servo: Servo,
     pub scene: HapticScene,
@@ -89,7 +89,7 @@ pub(super) fn bare(spec: &DeviceSpec) -> ServoSettings {
 }
 
 /// A wall that pushes.
-pub(super) fn wall(stiffness_n_m: f64, damping_ns_m: f64) -> Effect {
+pub(crate) fn wall(stiffness_n_m: f64, damping_ns_m: f64) -> Effect {
     Effect::Plane { normal: DVec3::NEG_X, offset_m: 0.0, stiffness_n_m, damping_ns_m }
 }
 

@@ -7,7 +7,6 @@ use crate::physics::event_driven::pivot::{Base, Pivot};
 use crate::physics::event_driven::segment::{Course, Segment};
 use crate::physics::event_driven::terrain::Feature;
 use crate::physics::laws::Mover;
-use crate::physics::laws::cloth::Carrying;
 use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
@@ -60,11 +59,7 @@ impl EventDriven {
             _ => Base::Slope { normal },
         };
         let surface = self.terrain.surface(feature);
-        let law = Carrying {
-            friction: self.parameters.surface(surface).friction,
-            rolling_resistance: self.parameters.rolling_resistance,
-            spin_deceleration_rad_s2: self.parameters.spin_deceleration_rad_s2,
-        };
+        let law = self.parameters.carrying(self.parameters.surface(surface).friction);
         Pivot { base, law, gravity_m_s2: self.parameters.gravity_m_s2 }
     }
 

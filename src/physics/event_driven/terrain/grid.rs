@@ -109,7 +109,7 @@ impl Terrain {
         let mut last = (Parts::default(), Listed::default());
         for (index, parts) in cells.into_iter().enumerate() {
             let low = self.cell_at(index) << CUTS;
-            self.fill(index, &parts, low, 1 << CUTS, &mut last);
+            self.fill(index, parts, low, 1 << CUTS, &mut last);
         }
         self.lists.shrink();
         self.nodes.shrink_to_fit();
@@ -180,7 +180,7 @@ impl Terrain {
     fn fill(
         &mut self,
         node: usize,
-        parts: &Parts,
+        parts: Parts,
         low: IVec3,
         size: i32,
         last: &mut (Parts, Listed),
@@ -192,14 +192,12 @@ impl Terrain {
             for child in 0..8 {
                 let low = low + IVec3::new(child & 1, child >> 1 & 1, child >> 2) * half;
                 let space = self.space(low, half);
-                let kept = self.kept(parts, &space);
-                self.fill(first + child as usize, &kept, low, half, last);
+                let kept = self.kept(&parts, &space);
+                self.fill(first + child as usize, kept, low, half, last);
             }
             return;
         }
-        let space = self.space(low, size);
-        let parts = self.kept(parts, &space);
-        let parts = self.with_whole(parts, &space);
+        let parts = self.with_whole(parts, &self.space(low, size));
         if parts != last.0 {
             let mut lists = core::mem::take(&mut self.lists);
             let listed = self.list(&parts, &mut lists);
