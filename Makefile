@@ -47,8 +47,10 @@ setup:
 	$$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
 	  $$missing
 
+# Modules that a macro declares are not found by cargo fmt.
 early:
 	$(CARGO) fmt --all --check
+	rustfmt --edition 2024 --check src/rules/games/*.rs
 	$(CARGO) test --quiet --locked --package hapticbillard
 
 featureless:

@@ -9,8 +9,9 @@ mod game;
 
 pub use fact::{Fact, FactKind, TouchedBy};
 pub use game::{
-    BallInHand, Call, Choice, Command, Foul, Group, Groups, Health, MenuAction, PlayerReport,
-    PlayerState, ShotKind, Turn, TurnAfter, Verdict, Zone,
+    BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Choice, Command, Foul, Group, Groups,
+    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Turn, TurnAfter,
+    Verdict, Zone,
 };
 
 use crate::ids::PlayerId;

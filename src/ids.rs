@@ -2,6 +2,7 @@
 
 mod game;
 
+pub(crate) use game::for_all_games;
 pub use game::{GameKind, UnknownGame};
 
 use serde::de::{Error, Visitor};
@@ -151,6 +152,12 @@ impl PlayerId {
     /// Place in an array of two.
     pub fn index(self) -> usize {
         usize::from(self != Self::ONE)
+    }
+}
+
+impl Default for PlayerId {
+    fn default() -> Self {
+        PlayerId::ONE
     }
 }
 

@@ -8,35 +8,31 @@
 //!
 //! The rules never look at positions: whoever asks where a ball lies asks physics.
 
-mod shot;
-
-mod state;
-
-mod eight_ball;
-
-mod free_play;
-
-mod phase;
-
-mod referee;
-
-mod fact_json;
-
-mod scenario;
-
+mod ball_names;
 mod console;
-
+mod fact_json;
+mod fouls;
+mod game;
+mod games;
+mod phase;
+mod referee;
+mod scenario;
+mod shot;
+mod state;
 mod text;
 
 pub use crate::ids::{GameKind, UnknownGame};
+pub use ball_names::{ball_name, ball_named};
 pub use console::{Console, ConsoleAnswer, ConsoleError};
+pub use game::{Chosen, Game, Judge};
+pub use games::game;
 pub use phase::{Phase, Signal, diagram};
-pub use referee::{Judge, Referee};
+pub use referee::Referee;
 pub use scenario::{
     Difference, Scenario, ScenarioError, ScenarioResult, ScenarioStatus, read_scenarios,
     run_scenario,
 };
-pub use shot::{Pocketed, Shot, watch};
+pub use shot::{Met, Pocketed, Shot, watch};
 pub use state::State;
 pub use text::{Language, Texts, explain};
 
@@ -45,21 +41,18 @@ use crate::ids::BallId;
 use smallvec::SmallVec;
 
 /// The verdict of a game's rules on a finished shot.
-pub fn judge(game: GameKind, state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
-    judge_of(game)(state, call, shot)
+pub fn judge(kind: GameKind, state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
+    (game(kind).judge)(state, call, shot)
 }
 
 /// The object balls that the cue ball may meet first without a foul, in ascending order.
-pub fn legal_first(game: GameKind, state: &State) -> SmallVec<[BallId; 16]> {
-    let may_be_first = |ball: &BallId| match game {
-        GameKind::PaperEightBall => eight_ball::may_be_first(state, *ball),
-        GameKind::FreePlay => true,
-    };
+pub fn legal_first(kind: GameKind, state: &State) -> SmallVec<[BallId; 16]> {
+    let may_be_first = |ball: &BallId| (game(kind).may_be_first)(state, *ball);
     state.on_table.iter().copied().filter(may_be_first).collect()
 }
 
 /// The facts that decide anything in a game. What nobody needs need not stop the simulation.
-pub fn topics(game: GameKind) -> Topics {
+pub fn topics(kind: GameKind) -> Topics {
     let every_game = Topics::of(&[
         Topic::BallPlaced,
         Topic::CueBallStruck,
@@ -68,17 +61,5 @@ pub fn topics(game: GameKind) -> Topics {
         Topic::BallTouched,
         Topic::Settled,
     ]);
-    match game {
-        // Rails are never required, so cushions decide nothing.
-        GameKind::PaperEightBall => every_game.or(Topics::of(&[Topic::BallsCollided])),
-        GameKind::FreePlay => every_game,
-    }
-}
-
-/// The pure function that judges a game's shots.
-fn judge_of(game: GameKind) -> Judge {
-    match game {
-        GameKind::PaperEightBall => eight_ball::judge,
-        GameKind::FreePlay => free_play::judge,
-    }
+    every_game.or(Topics::of(game(kind).facts))
 }

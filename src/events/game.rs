@@ -26,10 +26,34 @@ pub enum Command {
     },
     /// Put balls back on their spots, or as near behind them as there is room. From the rules.
     SpotBalls(SmallVec<[BallId; 4]>),
+    /// Rack balls anew. From the rules.
+    Rack(Racking),
+    /// Put the balls back where they lay before the last shot; training.
+    Undo,
     /// Say what will be pocketed, or what kind of shot it is.
     Call(Call),
     /// Take one of the offered options.
     Choose(Choice),
+}
+
+/// Which balls are racked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Racking {
+    /// Counts the racks of a game from 0, which the game began with: each stands a little otherwise.
+    pub serial: u32,
+    /// All of them, or those that fell.
+    pub balls: Racked,
+}
+
+/// How much of a rack is set up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Racked {
+    /// Every ball, as at the start of a game.
+    All,
+    /// Straight pool: fourteen balls without the apex; the one that is left, and the cue ball, stay
+    /// where they are unless they are in the way.
+    Fourteen,
 }
 
 /// Where a ball may be put.
@@ -96,6 +120,88 @@ pub enum CallKind {
     Safety,
     /// Nine-ball, after the break: order and rails do not matter.
     PushOut,
+}
+
+/// What a player may announce before a shot.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Calls {
+    /// A ball.
+    pub ball: bool,
+    /// The pocket of that ball.
+    pub pocket: bool,
+    /// A safety.
+    pub safety: bool,
+    /// A push-out.
+    pub push_out: bool,
+}
+
+/// Something that each of two players has. JSON: `{"1":…,"2":…}`.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ByPlayer<T: Default> {
+    /// Player 1's.
+    #[serde(rename = "1")]
+    pub one: T,
+    /// Player 2's.
+    #[serde(rename = "2")]
+    pub two: T,
+}
+
+impl<T: Copy + Default + PartialEq> ByPlayer<T> {
+    /// A player's.
+    pub fn of(&self, player: PlayerId) -> T {
+        if player == PlayerId::ONE { self.one } else { self.two }
+    }
+
+    /// The same with another value for a player.
+    #[must_use]
+    pub fn with(mut self, player: PlayerId, value: T) -> Self {
+        match player {
+            PlayerId::ONE => self.one = value,
+            _ => self.two = value,
+        }
+        self
+    }
+
+    /// Whether nobody has anything.
+    pub fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// What is on in snooker. JSON: `"red"`, `"colour"` or the name of a ball.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BallOn {
+    /// Any red.
+    Red,
+    /// Any colour, to be nominated.
+    Colour,
+    /// This ball.
+    Ball(BallId),
+}
+
+impl Serialize for BallOn {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            BallOn::Red => serializer.serialize_str("red"),
+            BallOn::Colour => serializer.serialize_str("colour"),
+            BallOn::Ball(ball) => ball.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for BallOn {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        match word.as_str() {
+            "red" => Ok(BallOn::Red),
+            "colour" => Ok(BallOn::Colour),
+            _ => word.parse().map(|ball| BallOn::Ball(BallId(ball))).map_err(|_| {
+                serde::de::Error::custom(format!("'{word}': expected red, colour or a ball"))
+            }),
+        }
+    }
 }
 
 /// The kind of shot that a turn begins with.
@@ -304,14 +410,40 @@ pub struct Verdict {
     pub winner: Option<PlayerId>,
     /// For the next shot.
     pub ball_in_hand: BallInHand,
-    /// Balls that return to the table.
+    /// Balls that return to the table; where a choice decides, those that would.
     pub spot: SmallVec<[BallId; 4]>,
     /// Object balls that fell in this shot, in time order.
     pub pocketed: SmallVec<[BallId; 4]>,
+    /// Who chooses how it goes on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chooser: Option<PlayerId>,
+    /// Between what; nothing if there is no choice.
+    #[serde(skip_serializing_if = "SmallVec::is_empty")]
+    pub options: SmallVec<[Choice; 3]>,
+    /// Fouls in a row, where a game counts them.
+    #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
+    pub fouls_after: ByPlayer<u8>,
+    /// Points that this shot added.
+    #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
+    pub points: ByPlayer<i32>,
+    /// Snooker: what is on next.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ball_on_next: Option<BallOn>,
+    /// Snooker: the next player may nominate any ball.
+    #[serde(skip_serializing_if = "is_false")]
+    pub free_ball: bool,
+    /// Balls that are racked now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rack: Option<Racked>,
 }
 
-/// A player is called to the table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+fn is_false(flag: &bool) -> bool {
+    !*flag
+}
+
+/// A player is called to the table: to shoot, or to choose if there are options.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Turn {
     /// Who.
     pub player: PlayerId,
@@ -327,6 +459,22 @@ pub struct Turn {
     pub legal_first: SmallVec<[BallId; 16]>,
     /// Counts the turns' shots of this game from 1.
     pub shot_number: u32,
+    /// What the player must choose from before anybody shoots; nothing if there is no choice.
+    #[serde(skip_serializing_if = "SmallVec::is_empty")]
+    pub options: SmallVec<[Choice; 3]>,
+    /// What may be called.
+    pub calls: Calls,
+    /// The ball that the player strikes.
+    pub cue_ball: BallId,
+    /// Points so far, where a game has them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub score: Option<ByPlayer<i32>>,
+    /// Snooker: what is on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<BallOn>,
+    /// The player has been told that the next foul is the third in a row.
+    #[serde(skip_serializing_if = "is_false")]
+    pub warned: bool,
 }
 
 /// Where a computer player stands in its turn (paper, section 5.4).

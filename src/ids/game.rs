@@ -4,35 +4,52 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::fmt;
 use std::str::FromStr;
 
-/// A game whose rules are known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum GameKind {
-    /// The reduced eight-ball of the 2009 paper (section 5.2).
-    PaperEightBall,
-    /// Everybody for himself, without fouls.
-    FreePlay,
+/// All games: the name in code, in scene files, in JSON, and the file in `src/rules/games`. A new
+/// game is a file there and a line here.
+macro_rules! for_all_games {
+    ($then:ident) => {
+        $then! {
+            /// The reduced eight-ball of the 2009 paper (section 5.2).
+            PaperEightBall "paper-eight-ball" "paper8" paper_eight_ball;
+            /// Eight-ball by the rules of the WPA.
+            WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
+            /// Everybody for himself, without fouls.
+            FreePlay "free-play" "free_play" free_play;
+        }
+    };
+}
+pub(crate) use for_all_games;
+
+macro_rules! kinds {
+    ($($(#[$about:meta])* $kind:ident $id:literal $short:literal $file:ident;)*) => {
+        /// A game whose rules are known.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum GameKind {
+            $($(#[$about])* $kind,)*
+        }
+
+        impl GameKind {
+            /// All games.
+            pub const ALL: [GameKind; [$($id),*].len()] = [$(GameKind::$kind),*];
+
+            /// Its name in scene files.
+            pub fn id(self) -> &'static str {
+                match self {
+                    $(GameKind::$kind => $id,)*
+                }
+            }
+
+            /// Its name in JSON.
+            pub fn short_id(self) -> &'static str {
+                match self {
+                    $(GameKind::$kind => $short,)*
+                }
+            }
+        }
+    };
 }
 
-impl GameKind {
-    /// All games.
-    pub const ALL: [GameKind; 2] = [GameKind::PaperEightBall, GameKind::FreePlay];
-
-    /// Its name in scene files.
-    pub fn id(self) -> &'static str {
-        match self {
-            GameKind::PaperEightBall => "paper-eight-ball",
-            GameKind::FreePlay => "free-play",
-        }
-    }
-
-    /// Its name in JSON.
-    pub fn short_id(self) -> &'static str {
-        match self {
-            GameKind::PaperEightBall => "paper8",
-            GameKind::FreePlay => "free_play",
-        }
-    }
-}
+for_all_games!(kinds);
 
 impl fmt::Display for GameKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

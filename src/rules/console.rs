@@ -1,10 +1,13 @@
 //! The paper's rule console (section 5.2): facts in, one a line; phase, state and verdict out.
 
+use super::ball_names::{numbered, numbered_object};
 use super::fact_json::read_fact;
+use super::games::game;
 use super::phase::Phase;
 use super::referee::Referee;
 use super::state::State;
-use crate::events::{Event, Turn, Verdict};
+use crate::events::Choice;
+use crate::events::{Call, Command, Event, Source, Turn, Verdict};
 use crate::ids::BallId;
 use crate::ids::GameKind;
 use crate::one_line::{one_line, without_place};
@@ -77,10 +80,10 @@ pub enum ConsoleError {
 }
 
 impl Console {
-    /// A new game with a full rack of 15; player 1 breaks.
-    pub fn new(game: GameKind) -> Self {
-        let mut referee = Referee::new(game);
-        referee.begin((1..=15).map(BallId));
+    /// A new game with a full rack; player 1 breaks.
+    pub fn new(kind: GameKind) -> Self {
+        let mut referee = Referee::new(kind);
+        referee.begin((0..=game(kind).balls).map(BallId));
         Console { referee, lines: 0 }
     }
 
@@ -95,7 +98,8 @@ impl Console {
         }
     }
 
-    /// Takes the next line: a fact, or `{"state":{…}}` to go on from another state.
+    /// Takes the next line: a fact, `{"call":…}` as rule scenarios have it, `{"choose":"accept"}`,
+    /// or `{"state":{…}}` to go on from another state.
     ///
     /// What `simulate --json` prints passes through: its facts are heard, the rest is passed over,
     /// as are empty lines and comments (`#`). After an error the game stands where it stood.
@@ -116,7 +120,15 @@ impl Console {
                 problem: without_place(&error),
             })?;
         let is_fact = object.contains_key("e") || object.contains_key("fact");
+        let kind = self.referee.game();
+        for key in ["call", "choose"] {
+            if let (false, Some(value)) = (is_fact, object.get(key)) {
+                return self.obey(text, key, value.clone());
+            }
+        }
         if let (false, Some(state)) = (is_fact, object.get("state")) {
+            let mut state = state.clone();
+            numbered(kind, &mut state);
             let state = State::deserialize(state).map_err(|error| ConsoleError::NotAFact {
                 line,
                 column: column_of(text, Some("state")),
@@ -130,12 +142,49 @@ impl Console {
         if !is_fact && passes {
             return Ok(self.answer());
         }
-        let fact = read_fact(object).map_err(|error| ConsoleError::NotAFact {
-            line,
-            column: column_of(text, error.key.as_deref()),
-            problem: error.problem,
-        })?;
+        let fact =
+            read_fact(numbered_object(kind, object)).map_err(|error| ConsoleError::NotAFact {
+                line,
+                column: column_of(text, error.key.as_deref()),
+                problem: error.problem,
+            })?;
         let said = self.referee.handle(&fact);
+        Ok(self.answer_with(said))
+    }
+
+    /// Hears a call or a choice. One that is not allowed now is refused.
+    fn obey(&mut self, text: &str, key: &str, value: Value) -> Result<ConsoleAnswer, ConsoleError> {
+        let refused = |problem: String| ConsoleError::NotAFact {
+            line: self.lines,
+            column: column_of(text, Some(key)),
+            problem: one_line(&problem, 400),
+        };
+        let unknown = |error: serde_json::Error| refused(format!("{key}: {error}"));
+        let mut value = value;
+        numbered(self.referee.game(), &mut value);
+        let command = match key {
+            "call" => Command::Call(Call::deserialize(value).map_err(unknown)?),
+            _ => Command::Choose(Choice::deserialize(value).map_err(unknown)?),
+        };
+        let phase = self.referee.phase();
+        let mut after = self.referee.clone();
+        let said = after.obey(Source::Input, &command);
+        let is_heard = match &command {
+            Command::Call(call) => after.call() == Some(call),
+            _ => !said.is_empty(),
+        };
+        if !is_heard {
+            let options = &self.referee.state().options;
+            let problem = match options.is_empty() {
+                true => format!("{key}: nothing of the kind is asked for in the phase {phase}"),
+                false => format!(
+                    "{key}: expected one of {}",
+                    serde_json::to_string(options).unwrap_or_default()
+                ),
+            };
+            return Err(refused(problem));
+        }
+        self.referee = after;
         Ok(self.answer_with(said))
     }
 

@@ -1,5 +1,6 @@
 //! The phases of a turn: all that is left of the paper's statechart (figure 5.1).
 
+use super::games::game;
 use crate::ids::GameKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -11,6 +12,8 @@ pub enum Phase {
     /// Nobody was called to the table yet.
     #[default]
     Opening,
+    /// A player was called to choose how it goes on.
+    Choosing,
     /// A player was called and has the cue ball in hand.
     Placing,
     /// A player was called and the cue ball lies.
@@ -28,6 +31,8 @@ pub enum Signal {
     TurnInHand,
     /// A player is called, the cue ball is played from where it lies.
     TurnAsItLies,
+    /// A player is called who must choose first.
+    TurnToChoose,
     /// The cue ball was put down where it may be.
     Placed,
     /// A ball was struck or touched.
@@ -38,37 +43,42 @@ pub enum Signal {
 
 impl Phase {
     /// All phases, in the order in which a game first meets them.
-    pub const ALL: [Phase; 5] =
-        [Phase::Opening, Phase::Placing, Phase::Waiting, Phase::Shooting, Phase::Over];
+    pub const ALL: [Phase; 6] = [
+        Phase::Opening,
+        Phase::Choosing,
+        Phase::Placing,
+        Phase::Waiting,
+        Phase::Shooting,
+        Phase::Over,
+    ];
 
     /// The phase that a signal leads to; none where it cannot come. The whole machine is here.
     pub fn after(self, signal: Signal) -> Option<Phase> {
         match (self, signal) {
-            (Phase::Opening, Signal::TurnInHand) => Some(Phase::Placing),
-            (Phase::Opening, Signal::TurnAsItLies) => Some(Phase::Waiting),
-            (Phase::Opening, Signal::Placed | Signal::ShotBegan | Signal::GameOver) => None,
+            (Phase::Over, _) => None,
+
+            (Phase::Opening | Phase::Choosing | Phase::Shooting, Signal::TurnInHand) => {
+                Some(Phase::Placing)
+            }
+            (Phase::Opening | Phase::Choosing | Phase::Shooting, Signal::TurnAsItLies) => {
+                Some(Phase::Waiting)
+            }
+            // A game may be taken up in the middle of a choice, and training takes shots back.
+            (Phase::Opening | Phase::Shooting, Signal::TurnToChoose) => Some(Phase::Choosing),
+            (Phase::Opening | Phase::Choosing, Signal::Placed | Signal::ShotBegan) => None,
+            (Phase::Opening | Phase::Choosing, Signal::GameOver) => None,
+            (Phase::Choosing, Signal::TurnToChoose) => None,
 
             (Phase::Placing | Phase::Waiting, Signal::Placed) => Some(Phase::Waiting),
             (Phase::Placing | Phase::Waiting, Signal::ShotBegan) => Some(Phase::Shooting),
-            // A placement was refused: the same turn is announced again.
+            // A placement was refused, or a call heard: the same turn is announced again.
             (Phase::Placing | Phase::Waiting, Signal::TurnInHand) => Some(Phase::Placing),
             (Phase::Waiting, Signal::TurnAsItLies) => Some(Phase::Waiting),
             (Phase::Placing, Signal::TurnAsItLies) => None,
-            (Phase::Placing | Phase::Waiting, Signal::GameOver) => None,
+            (Phase::Placing | Phase::Waiting, Signal::TurnToChoose | Signal::GameOver) => None,
 
-            (Phase::Shooting, Signal::TurnInHand) => Some(Phase::Placing),
-            (Phase::Shooting, Signal::TurnAsItLies) => Some(Phase::Waiting),
             (Phase::Shooting, Signal::GameOver) => Some(Phase::Over),
             (Phase::Shooting, Signal::Placed | Signal::ShotBegan) => None,
-
-            (
-                Phase::Over,
-                Signal::TurnInHand
-                | Signal::TurnAsItLies
-                | Signal::Placed
-                | Signal::ShotBegan
-                | Signal::GameOver,
-            ) => None,
         }
     }
 }
@@ -77,6 +87,7 @@ impl fmt::Display for Phase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Phase::Opening => "Opening",
+            Phase::Choosing => "Choosing",
             Phase::Placing => "Placing",
             Phase::Waiting => "Waiting",
             Phase::Shooting => "Shooting",
@@ -87,30 +98,24 @@ impl fmt::Display for Phase {
 
 impl Signal {
     /// All signals.
-    pub const ALL: [Signal; 5] = [
+    pub const ALL: [Signal; 6] = [
         Signal::TurnInHand,
         Signal::TurnAsItLies,
+        Signal::TurnToChoose,
         Signal::Placed,
         Signal::ShotBegan,
         Signal::GameOver,
     ];
 
     /// What it means in a game, for the diagram.
-    fn label(self, game: GameKind) -> &'static str {
-        match (self, game) {
-            (Signal::TurnInHand, GameKind::PaperEightBall) => {
-                "Turn, cue ball in hand (break, foul, placement refused)"
-            }
-            (Signal::TurnInHand, GameKind::FreePlay) => {
-                "Turn, cue ball in hand (it was gone, or its placement refused)"
-            }
-            (Signal::TurnAsItLies, _) => "Turn, played as it lies",
-            (Signal::Placed, _) => "BallPlaced in its zone",
-            (Signal::ShotBegan, _) => "CueBallStruck or BallTouched",
-            (Signal::GameOver, GameKind::PaperEightBall) => {
-                "Settled, the 8 is gone or 60 turns were dry"
-            }
-            (Signal::GameOver, GameKind::FreePlay) => "Settled, no object ball is left",
+    fn label(self, kind: GameKind) -> &'static str {
+        match self {
+            Signal::TurnInHand => game(kind).in_hand,
+            Signal::TurnAsItLies => "Turn, played as it lies",
+            Signal::TurnToChoose => "Turn with options",
+            Signal::Placed => "BallPlaced in its zone",
+            Signal::ShotBegan => "CueBallStruck or BallTouched",
+            Signal::GameOver => game(kind).ends,
         }
     }
 }

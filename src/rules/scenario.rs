@@ -1,5 +1,6 @@
 //! Rule scenarios: a state, what happens, and the verdict that must come out.
 
+use super::ball_names::{named, numbered, numbered_object};
 use super::fact_json::read_fact;
 use super::judge;
 use super::shot::{Shot, watch};
@@ -130,7 +131,7 @@ pub fn read_scenarios(text: &str) -> Result<Vec<Scenario>, ScenarioError> {
 pub fn run_scenario(scenario: &Scenario) -> ScenarioResult {
     let (got, verdict, differences) = match verdict_of(scenario) {
         Ok(verdict) => {
-            let got = form_of(&verdict);
+            let got = form_of(scenario, &verdict);
             let differences = compare(&scenario.expect, &got);
             (got, Some(verdict), differences)
         }
@@ -159,18 +160,23 @@ fn verdict_of(scenario: &Scenario) -> Result<Verdict, Difference> {
         .ruleset
         .parse()
         .map_err(|error: super::UnknownGame| problem("ruleset", error.to_string()))?;
-    let state: State = match &scenario.state {
+    let in_numbers = |value: &Value| {
+        let mut value = value.clone();
+        numbered(game, &mut value);
+        value
+    };
+    let state: State = match in_numbers(&scenario.state) {
         Value::Null => State::default(),
         value => State::deserialize(value).map_err(|error| problem("state", error.to_string()))?,
     };
-    let call = Option::<Call>::deserialize(&scenario.call).map_err(|_| {
+    let call = Option::<Call>::deserialize(in_numbers(&scenario.call)).map_err(|_| {
         let allowed = r#"null, {"ball","pocket"}, "safety" or "push_out""#;
         problem("call", format!("{}: expected {allowed}", scenario.call))
     })?;
 
-    let mut shot = Shot::default();
+    let mut shot = Shot::of(state.cue_ball);
     for (i, event) in scenario.events.iter().enumerate() {
-        let fact = read_fact(event.clone())
+        let fact = read_fact(numbered_object(game, event.clone()))
             .map_err(|error| problem(&format!("events[{i}]"), error.problem))?;
         watch(&mut shot, &fact);
         if shot.settled {
@@ -181,9 +187,13 @@ fn verdict_of(scenario: &Scenario) -> Result<Verdict, Difference> {
 }
 
 /// The verdict in the form of a scenario's expectation.
-fn form_of(verdict: &Verdict) -> Map<String, Value> {
-    match serde_json::to_value(verdict) {
-        Ok(Value::Object(object)) => object,
+fn form_of(scenario: &Scenario, verdict: &Verdict) -> Map<String, Value> {
+    let mut value = serde_json::to_value(verdict).unwrap_or_default();
+    if let Ok(game) = scenario.ruleset.parse() {
+        named(game, &mut value);
+    }
+    match value {
+        Value::Object(object) => object,
         _ => Map::new(),
     }
 }

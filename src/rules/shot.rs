@@ -19,9 +19,21 @@ pub struct Pocketed {
     pub pocket: PocketId,
 }
 
-/// What happened in one shot, from the cue ball's placing to rest. Start with the default.
+/// What the cue ball met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Met {
+    /// A ball.
+    Ball(BallId),
+    /// A rail that it did not touch before.
+    Rail(Rail),
+}
+
+/// What happened in one shot, from the cue ball's placing to rest. Start with the default, or with
+/// [`Shot::of`] where the cue ball is not the one with the number 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Shot {
+    /// The ball that is struck.
+    pub cue_ball: BallId,
     /// The last attempt to put the cue ball down before the stroke: the zone it was meant for, and
     /// whether it could be put there.
     pub placement: Option<(Zone, bool)>,
@@ -46,6 +58,10 @@ pub struct Shot {
     pub rails: SmallVec<[(BallId, Rail); 16]>,
     /// The same, but only from the first contact of the cue ball on.
     pub rails_after_contact: u32,
+    /// Balls that went down or left the table from the first contact of the cue ball on.
+    pub gone_after_contact: u32,
+    /// What the cue ball met, in time order.
+    pub cue_met: SmallVec<[Met; 8]>,
     /// Object balls that went down, in time order; at the same time, the lower number first.
     pub pocketed: SmallVec<[Pocketed; 4]>,
     /// Object balls that left the table, in ascending order.
@@ -60,15 +76,20 @@ pub struct Shot {
     pub crossed_head_first: bool,
     /// Everything is at rest: the shot can be judged.
     pub settled: bool,
+    /// Snooker: no ball on can be hit on both edges in a straight line.
+    pub snookered: bool,
 }
 
 /// Adds one fact to the shot. Facts come in time order; those at the same time in any order.
 pub fn watch(shot: &mut Shot, fact: &Fact) {
+    let cue_ball = shot.cue_ball;
     match fact.kind {
-        FactKind::BallPlaced { ball: BallId::CUE, zone, ok } => shot.placement = Some((zone, ok)),
+        FactKind::BallPlaced { ball, zone, ok } if ball == cue_ball => {
+            shot.placement = Some((zone, ok));
+        }
         // Object balls return by the rules' own command, which is no part of a shot.
         FactKind::BallPlaced { .. } => {}
-        FactKind::CueBallStruck { ball: BallId::CUE, push, moving, player, .. } => {
+        FactKind::CueBallStruck { ball, push, moving, player, .. } if ball == cue_ball => {
             shot.tips = shot.tips.saturating_add(1);
             shot.push |= push;
             shot.moving |= moving;
@@ -78,38 +99,49 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
         FactKind::CueBallStruck { ball, .. } => shot.touched.push((ball, TouchedBy::Tip)),
         FactKind::BallsCollided { a, b, in_kitchen, .. } => {
             shot.contacts.push((a, b));
-            match (a, b) {
-                (BallId::CUE, other) | (other, BallId::CUE) => {
-                    watch_cue_ball_contact(shot, fact.time_s, other, in_kitchen);
-                }
-                _ => {}
+            if a == cue_ball || b == cue_ball {
+                let other = if a == cue_ball { b } else { a };
+                watch_cue_ball_contact(shot, fact.time_s, other, in_kitchen);
             }
         }
         FactKind::CushionHit { ball, rail, onset, .. } => {
             if onset {
                 shot.rails.push((ball, rail));
                 shot.rails_after_contact += u32::from(shot.first_contact_s.is_some());
+                if ball == cue_ball {
+                    shot.cue_met.push(Met::Rail(rail));
+                }
             }
         }
         FactKind::HeadStringCrossed { ball } => {
-            shot.crossed_head_first |= ball == BallId::CUE && shot.first_contact_s.is_none();
+            shot.crossed_head_first |= ball == cue_ball && shot.first_contact_s.is_none();
         }
-        FactKind::BallPocketed { ball: BallId::CUE, .. } => shot.cue_pocketed = true,
         FactKind::BallPocketed { ball, pocket, .. } => {
-            watch_pocketed(shot, Pocketed { time_s: fact.time_s, ball, pocket });
+            shot.gone_after_contact += u32::from(shot.first_contact_s.is_some());
+            if ball == cue_ball {
+                shot.cue_pocketed = true;
+            } else {
+                watch_pocketed(shot, Pocketed { time_s: fact.time_s, ball, pocket });
+            }
         }
-        FactKind::BallOffTable { ball: BallId::CUE } => shot.cue_off = true,
         FactKind::BallOffTable { ball } => {
-            if let Err(place) = shot.off.binary_search(&ball) {
+            shot.gone_after_contact += u32::from(shot.first_contact_s.is_some());
+            if ball == cue_ball {
+                shot.cue_off = true;
+            } else if let Err(place) = shot.off.binary_search(&ball) {
                 shot.off.insert(place, ball);
             }
         }
         FactKind::BallTouched { ball, by } => shot.touched.push((ball, by)),
-        FactKind::Settled { .. } => shot.settled = true,
+        FactKind::Settled { snookered } => {
+            shot.settled = true;
+            shot.snookered = snookered;
+        }
     }
 }
 
 fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_kitchen: bool) {
+    shot.cue_met.push(Met::Ball(other));
     let first_s = *shot.first_contact_s.get_or_insert(time_s);
     if first_s == time_s {
         shot.first_contacts.push(other);
@@ -129,6 +161,33 @@ fn watch_pocketed(shot: &mut Shot, new: Pocketed) {
 }
 
 impl Shot {
+    /// A shot in which another ball than number 0 is struck.
+    pub fn of(cue_ball: BallId) -> Self {
+        Shot { cue_ball, ..Shot::default() }
+    }
+
+    /// The object balls that were driven to a rail, went down or left the table.
+    pub fn driven(&self) -> SmallVec<[BallId; 16]> {
+        let to_rails = self.rails.iter().map(|(ball, _)| *ball);
+        let gone =
+            self.pocketed.iter().map(|pocketed| pocketed.ball).chain(self.off.iter().copied());
+        let mut balls: SmallVec<[BallId; 16]> =
+            to_rails.chain(gone).filter(|ball| *ball != self.cue_ball).collect();
+        balls.sort_unstable();
+        balls.dedup();
+        balls
+    }
+
+    /// Where this object ball went down.
+    pub fn pocket_of(&self, ball: BallId) -> Option<PocketId> {
+        self.pocketed.iter().find(|pocketed| pocketed.ball == ball).map(|pocketed| pocketed.pocket)
+    }
+
+    /// Whether the cue ball is gone.
+    pub fn cue_ball_is_gone(&self) -> bool {
+        self.cue_pocketed || self.cue_off
+    }
+
     /// Whether this object ball went down.
     pub fn has_pocketed(&self, ball: BallId) -> bool {
         self.pocketed.iter().any(|pocketed| pocketed.ball == ball)
@@ -151,7 +210,9 @@ impl Shot {
             self.cue_off,
             self.crossed_head_first,
             self.settled,
+            self.snookered,
         ];
+        hash.u64(self.cue_ball.0.into());
         hash.u64(zone);
         flags.into_iter().for_each(|flag| hash.u64(flag.into()));
         hash.u64(self.tips.into());
@@ -161,6 +222,14 @@ impl Shot {
         hash_list(hash, self.contacts.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
         hash_list(hash, self.rails.iter().map(|(a, rail)| u64::from(a.0) << 16 | *rail as u64));
         hash.u64(self.rails_after_contact.into());
+        hash.u64(self.gone_after_contact.into());
+        hash_list(
+            hash,
+            self.cue_met.iter().map(|met| match met {
+                Met::Ball(ball) => u64::from(ball.0),
+                Met::Rail(rail) => 1 << 16 | *rail as u64,
+            }),
+        );
         hash_list(hash, self.pocketed.iter().map(|p| u64::from(p.ball.0) << 16 | p.pocket as u64));
         self.pocketed.iter().for_each(|pocketed| hash.f64(pocketed.time_s));
         hash_list(hash, self.off.iter().map(|ball| ball.0.into()));

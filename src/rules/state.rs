@@ -1,7 +1,10 @@
 //! What a game must remember from shot to shot, and which games there are.
 
+use super::games::game;
 use super::shot::{Shot, hash_list};
-use crate::events::{BallInHand, Groups, ShotKind, TurnAfter, Verdict, Zone};
+use crate::events::{
+    BallInHand, BallOn, ByPlayer, Choice, Groups, Racked, ShotKind, TurnAfter, Verdict, Zone,
+};
 use crate::hash::StateHash;
 use crate::ids::{BallId, GameKind, PlayerId};
 use serde::{Deserialize, Deserializer, Serialize, de::Error};
@@ -31,6 +34,36 @@ pub struct State {
     /// An object ball was pocketed earlier in this very turn, so that it cannot be a dry one.
     #[serde(skip_serializing_if = "is_false")]
     pub pocketed_this_turn: bool,
+    /// Who broke this rack.
+    #[serde(skip_serializing_if = "is_one", deserialize_with = "one_of_two")]
+    pub breaker: PlayerId,
+    /// Fouls in a row, where a game counts them.
+    #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
+    pub fouls: ByPlayer<u8>,
+    /// The player was told that the next foul is the third in a row.
+    #[serde(skip_serializing_if = "is_false")]
+    pub warned: bool,
+    /// This is the shot right after a legal break.
+    #[serde(skip_serializing_if = "is_false")]
+    pub after_break: bool,
+    /// Points, where a game has them.
+    #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
+    pub score: ByPlayer<i32>,
+    /// Snooker: what is on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<BallOn>,
+    /// Snooker: the colour, or the free ball, that was nominated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nominated: Option<BallId>,
+    /// Snooker: any ball may be nominated as if it were on.
+    #[serde(skip_serializing_if = "is_false")]
+    pub free_ball: bool,
+    /// The ball that the player strikes.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub cue_ball: BallId,
+    /// What the player must choose from before anybody shoots; nothing if there is no choice.
+    #[serde(skip_serializing_if = "SmallVec::is_empty")]
+    pub options: SmallVec<[Choice; 3]>,
 }
 
 impl Default for State {
@@ -43,8 +76,26 @@ impl Default for State {
             ball_in_hand: BallInHand::None,
             dry_turns: 0,
             pocketed_this_turn: false,
+            breaker: PlayerId::ONE,
+            fouls: ByPlayer::default(),
+            warned: false,
+            after_break: false,
+            score: ByPlayer::default(),
+            on: None,
+            nominated: None,
+            free_ball: false,
+            cue_ball: BallId::CUE,
+            options: SmallVec::new(),
         }
     }
+}
+
+fn is_one(player: &PlayerId) -> bool {
+    *player == PlayerId::ONE
+}
+
+fn is_zero(ball: &BallId) -> bool {
+    ball.0 == 0
 }
 
 fn is_false(flag: &bool) -> bool {
@@ -68,11 +119,9 @@ fn ascending<'de, D: Deserializer<'de>>(
 }
 
 impl State {
-    /// The state before the first shot of a game, with these balls on the table. In eight-ball the
-    /// cue ball is in hand behind the head string, wherever it lies; in free play it is played
-    /// from where it lies, and in hand anywhere if it is not on the table.
+    /// The state before the first shot of a game, with these balls on the table.
     pub fn opening(
-        game: GameKind,
+        kind: GameKind,
         player: PlayerId,
         on_table: impl IntoIterator<Item = BallId>,
     ) -> Self {
@@ -81,12 +130,27 @@ impl State {
         on_table.dedup();
         let has_cue_ball = on_table.contains(&BallId::CUE);
         on_table.retain(|ball| *ball != BallId::CUE);
-        let (groups, ball_in_hand) = match game {
-            GameKind::PaperEightBall => (Some(Groups::Open), BallInHand::Kitchen),
-            GameKind::FreePlay if has_cue_ball => (None, BallInHand::None),
-            GameKind::FreePlay => (None, BallInHand::Anywhere),
-        };
-        State { shot: ShotKind::Break, player, groups, on_table, ball_in_hand, ..State::default() }
+        let shot = ShotKind::Break;
+        let mut state = State { shot, player, breaker: player, on_table, ..State::default() };
+        (game(kind).open)(&mut state, has_cue_ball);
+        state
+    }
+
+    /// The state before another break of the same match by `player`: a full rack, what the match
+    /// has counted so far.
+    pub fn reopened(&self, kind: GameKind, player: PlayerId) -> Self {
+        let balls = (0..=game(kind).balls).map(BallId);
+        State { score: self.score, ..State::opening(kind, player, balls) }
+    }
+
+    /// Whether this is the first shot of a rack.
+    pub fn is_break(&self) -> bool {
+        self.shot == ShotKind::Break
+    }
+
+    /// Whether the cue ball is played from behind the head string.
+    pub fn is_in_kitchen(&self) -> bool {
+        self.ball_in_hand == BallInHand::Kitchen
     }
 
     /// Turns in a row without a pocketed object ball, once this shot is over. A turn counts when it
@@ -115,17 +179,24 @@ impl State {
         self.on_table.iter().copied().filter(is_left).collect()
     }
 
-    /// The state before the next shot.
+    /// The state before the next shot, or before the choice that decides it: then it is the
+    /// chooser's turn, and what would be spotted is not yet.
     pub fn after(&self, shot: &Shot, verdict: &Verdict) -> State {
         let mut on_table = self.left_by(shot);
-        on_table.extend(verdict.spot.iter().copied());
+        if verdict.options.is_empty() {
+            on_table.extend(verdict.spot.iter().copied());
+        }
+        if verdict.rack == Some(Racked::Fourteen) {
+            on_table.extend((1..=15).map(BallId));
+        }
         on_table.sort_unstable();
         on_table.dedup();
         let pocketed = self.pocketed_this_turn || !shot.pocketed.is_empty();
         let turn_goes_on = verdict.turn == TurnAfter::Continue;
+        let add = |player| self.score.of(player) + verdict.points.of(player);
         State {
             shot: ShotKind::Normal,
-            player: verdict.next_player.unwrap_or(self.player),
+            player: verdict.chooser.or(verdict.next_player).unwrap_or(self.player),
             groups: verdict.groups,
             on_table,
             ball_in_hand: verdict.ball_in_hand,
@@ -134,6 +205,16 @@ impl State {
                 false => self.dry_turns_after(shot),
             },
             pocketed_this_turn: pocketed && turn_goes_on,
+            fouls: verdict.fouls_after,
+            score: ByPlayer { one: add(PlayerId::ONE), two: add(PlayerId::TWO) },
+            on: verdict.ball_on_next,
+            free_ball: verdict.free_ball,
+            options: verdict.options.clone(),
+            after_break: false,
+            warned: false,
+            nominated: None,
+            breaker: self.breaker,
+            cue_ball: self.cue_ball,
         }
     }
 
@@ -150,6 +231,22 @@ impl State {
         hash.u64(self.ball_in_hand as u64);
         hash.u64(self.dry_turns.into());
         hash.u64(self.pocketed_this_turn.into());
+        hash.u64(self.breaker.0.into());
+        hash.u64(u64::from(self.fouls.one) << 8 | u64::from(self.fouls.two));
+        for flag in [self.warned, self.after_break, self.free_ball] {
+            hash.u64(flag.into());
+        }
+        hash.u64(i64::from(self.score.one) as u64);
+        hash.u64(i64::from(self.score.two) as u64);
+        hash.u64(match self.on {
+            None => 0,
+            Some(BallOn::Red) => 1,
+            Some(BallOn::Colour) => 2,
+            Some(BallOn::Ball(ball)) => 3 + u64::from(ball.0),
+        });
+        hash.u64(self.nominated.map_or(0, |ball| 1 + u64::from(ball.0)));
+        hash.u64(self.cue_ball.0.into());
+        hash_list(hash, self.options.iter().map(|choice| *choice as u64));
     }
 }
 
@@ -163,12 +260,9 @@ mod tests {
             assert_eq!(game.id().parse(), Ok(game));
             assert_eq!(game.short_id().parse(), Ok(game));
         }
-        let error = "wpa8".parse::<GameKind>().unwrap_err().to_string();
-        assert_eq!(
-            error,
-            "unknown game 'wpa8'; the games are 'paper-eight-ball' (short 'paper8'), \
-             'free-play' (short 'free_play')"
-        );
+        let error = "wpa88".parse::<GameKind>().unwrap_err().to_string();
+        assert!(error.starts_with("unknown game 'wpa88'; the games are"), "{error}");
+        assert!(error.contains("'wpa-eight-ball' (short 'wpa8'), "), "{error}");
     }
 
     #[test]

@@ -158,7 +158,7 @@ fn game(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
     if !has_cue_ball {
         return wrong("rules need a cue ball, which has the number 0", "write [[ball]] and id = 0");
     }
-    if rules.game == GameKind::PaperEightBall {
+    if matches!(rules.game, GameKind::PaperEightBall | GameKind::WpaEightBall) {
         if rack != Some(RackKind::EightBall) {
             return wrong(
                 "eight-ball begins with its rack",

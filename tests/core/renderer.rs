@@ -161,6 +161,7 @@ fn turn(player: PlayerId, on_table: &[u16], groups: Groups) -> Event {
         legal_first: on_table.clone(),
         on_table,
         shot_number: 2,
+        ..Turn::default()
     }))
 }
 

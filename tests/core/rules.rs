@@ -14,13 +14,18 @@ use hapticbillard::rules::{
 };
 use hapticbillard::tick::{Delivered, Participant};
 use hapticbillard::units::Tick;
+use serde_json::json;
 use std::sync::Arc;
 
-const FILES: [&str; 2] =
-    [include_str!("data/rules_paper8.json"), include_str!("data/rules_paper8_more.json")];
+/// Scenarios of the rule book, a file per game and more.
+const FILES: [&str; 3] = [
+    include_str!("data/rules/paper_eight_ball.json"),
+    include_str!("data/rules/paper_eight_ball_more.json"),
+    include_str!("data/rules/wpa_eight_ball.json"),
+];
 
 #[test]
-fn every_scenario_of_the_papers_eight_ball_comes_out() {
+fn every_scenario_comes_out() {
     for scenario in FILES.into_iter().flat_map(|file| read_scenarios(file).unwrap()) {
         let result = run_scenario(&scenario);
         assert_eq!(result.status, ScenarioStatus::Pass, "{}: {:?}", result.id, result.differences);
@@ -39,27 +44,31 @@ fn every_scenario_fails_when_its_expectation_is_turned_round() {
     }
 }
 
-/// The referee gives the verdict that the pure function gives, fact by fact.
+/// The referee, behind its console, gives the verdict that the pure function gives, fact by fact.
 #[test]
 fn the_referee_agrees_with_the_scenarios() {
     for scenario in FILES.into_iter().flat_map(|file| read_scenarios(file).unwrap()) {
         let expected = run_scenario(&scenario).verdict.unwrap();
-        let state: State = serde_json::from_value(scenario.state.clone()).unwrap();
-        let mut referee = Referee::resume(GameKind::PaperEightBall, state);
-        referee.begin([]);
-        let mut said = Vec::new();
-        for event in &scenario.events {
-            let fact: Fact = serde_json::from_value(event.clone().into()).unwrap();
-            said.extend(referee.handle(&fact));
+        let kind = scenario.ruleset.parse().unwrap();
+        let mut console = Console::new(kind);
+        let mut feed = |line: serde_json::Value| console.feed_line(&line.to_string()).unwrap();
+        feed(json!({ "state": scenario.state }));
+        // Where nothing can be called the rules say that a call means nothing.
+        if !scenario.call.is_null() && kind != GameKind::PaperEightBall {
+            feed(json!({ "call": scenario.call }));
         }
-        assert_eq!(verdicts(&said), std::slice::from_ref(&expected), "{}", scenario.id);
-        let is_over = expected.turn == TurnAfter::End;
-        assert_eq!(referee.phase() == Phase::Over, is_over, "{}", scenario.id);
-        let next = said.last().and_then(|event| match event {
-            Event::Turn(turn) => Some(turn.player),
-            _ => None,
-        });
-        assert_eq!(next, expected.next_player, "{}", scenario.id);
+        let mut verdicts = Vec::new();
+        let (mut last, mut is_over) = (None, false);
+        for event in &scenario.events {
+            let answer = feed(event.clone().into());
+            verdicts.extend(answer.verdict);
+            (last, is_over) = (answer.turn.map(|turn| turn.player), answer.phase == Phase::Over);
+        }
+        let id = &scenario.id;
+        assert_eq!(verdicts.len(), 1, "{id}");
+        assert_eq!(*verdicts[0], expected, "{id}");
+        assert_eq!(is_over, expected.turn == TurnAfter::End, "{id}");
+        assert_eq!(last, expected.chooser.or(expected.next_player), "{id}");
     }
 }
 

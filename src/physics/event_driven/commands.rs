@@ -41,7 +41,7 @@ impl EventDriven {
                 }
             }
             // The rules' business.
-            Command::Call(_) | Command::Choose(_) => {}
+            Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ impl FixedStep {
                 }
                 Command::SpotBalls(balls) => balls.iter().for_each(|ball| self.spot_ball(*ball)),
                 // The rules' business.
-                Command::Call(_) | Command::Choose(_) => {}
+                Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
             }
         }
     }

@@ -273,6 +273,7 @@ fn from_the_kitchen_balls_in_the_kitchen_are_not_met_first() {
         on_table: [BallId(1), BallId(2)].into_iter().collect(),
         legal_first: [BallId(1), BallId(2)].into_iter().collect(),
         shot_number: 3,
+        ..Turn::default()
     };
     assert_eq!(Goal::of(&turn, &table, Some(Zone::Kitchen)).legal, [BallId(2)]);
     assert_eq!(Goal::of(&turn, &table, Some(Zone::Anywhere)).legal.len(), 2);

@@ -70,6 +70,7 @@ fn turn(player: PlayerId, view: &TableView2d, ball_in_hand: BallInHand) -> Event
         on_table: on_table.clone().collect(),
         legal_first: on_table.collect(),
         shot_number: 1,
+        ..Turn::default()
     }))
 }
 

@@ -3,37 +3,49 @@
 //! Nothing is called and there is no safety. Rails are not required, on the break or later. Where
 //! the paper is silent, the sentence at each rule says what holds here.
 
-use super::shot::Shot;
-use super::state::State;
-use crate::events::{BallInHand, Call, Foul, Group, Groups, ShotKind, TurnAfter, Verdict};
+use crate::events::{BallInHand, Call, Foul, Group, Groups, Topic, TurnAfter, Verdict};
 use crate::ids::{BallId, PlayerId};
+use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::game::Game;
+use crate::rules::shot::Shot;
+use crate::rules::state::State;
 use smallvec::SmallVec;
+
+/// The game. Rails are never required, so cushions decide nothing.
+pub const GAME: Game = Game {
+    open: |state, _| {
+        state.groups = Some(Groups::Open);
+        state.ball_in_hand = BallInHand::Kitchen;
+    },
+    judge,
+    may_be_first,
+    facts: &[Topic::BallsCollided],
+    ends: "Settled, the 8 is gone or 60 turns were dry",
+    in_hand: "Turn, cue ball in hand (break, foul, placement refused)",
+    ..Game::USUAL
+};
 
 /// So many turns in a row without a pocketed object ball are a draw.
 const DRY_TURNS_MAX: u32 = 60;
 
-/// Whether a shot broke one rule.
-type Rule = fn(&State, &Shot) -> bool;
-
 /// What makes a shot a foul. There are no others: a push, a ball that still moves, or the wrong
-/// player's stroke are none in this game.
+/// player's stroke are none in this game. An object ball off the table stays out, but for the 8 on
+/// the break.
 const FOULS: [(Foul, Rule); 9] = [
-    (Foul::Scratch, scratch),
-    (Foul::CueOff, cue_ball_off),
-    (Foul::NoContact, no_contact),
+    (Foul::Scratch, fouls::scratch),
+    (Foul::CueOff, fouls::cue_ball_off),
+    (Foul::NoContact, fouls::no_contact),
     (Foul::WrongFirst, wrong_first),
-    (Foul::BallOff, ball_off),
-    (Foul::DoubleHit, double_hit),
-    (Foul::TouchedBall, touched_ball),
-    (Foul::BadPlacement, bad_placement),
+    (Foul::BallOff, fouls::ball_off),
+    (Foul::DoubleHit, fouls::double_hit),
+    (Foul::TouchedBall, fouls::touched_ball),
+    (Foul::BadPlacement, fouls::bad_placement),
     (Foul::EightEarly, eight_early),
 ];
 
 /// Judges a finished shot. A call means nothing in this game.
 pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
-    let mut fouls: SmallVec<[Foul; 2]> =
-        FOULS.iter().filter(|(_, rule)| rule(state, shot)).map(|(foul, _)| *foul).collect();
-    fouls.sort_unstable();
+    let fouls = committed(&FOULS, state, shot);
     let legal = fouls.is_empty();
     let groups = groups_after(state, shot, legal);
 
@@ -80,22 +92,6 @@ pub fn may_be_first(state: &State, ball: BallId) -> bool {
     }
 }
 
-/// Foul: the cue ball is down.
-fn scratch(_: &State, shot: &Shot) -> bool {
-    shot.cue_pocketed
-}
-
-/// Foul: the cue ball is off the table.
-fn cue_ball_off(_: &State, shot: &Shot) -> bool {
-    shot.cue_off
-}
-
-/// Foul: the cue ball met no ball. A touch without a stroke is judged as a touch alone.
-fn no_contact(_: &State, shot: &Shot) -> bool {
-    let is_only_a_touch = shot.tips == 0 && !shot.touched.is_empty();
-    shot.first_contacts.is_empty() && !is_only_a_touch
-}
-
 /// Foul: the cue ball met a wrong ball first: an opponent's ball, or the 8 while own balls are
 /// left or the table is open. Of two balls met at the same time, the right one was first.
 fn wrong_first(state: &State, shot: &Shot) -> bool {
@@ -103,36 +99,15 @@ fn wrong_first(state: &State, shot: &Shot) -> bool {
         && !shot.first_contacts.iter().any(|ball| may_be_first(state, *ball))
 }
 
-/// Foul: an object ball is off the table. It stays out, but for the 8 on the break.
-fn ball_off(_: &State, shot: &Shot) -> bool {
-    !shot.off.is_empty()
-}
-
-/// Foul: the tip met the cue ball twice.
-fn double_hit(_: &State, shot: &Shot) -> bool {
-    shot.tips > 1
-}
-
-/// Foul: a ball was touched by anything but the tip's one stroke or another ball.
-fn touched_ball(_: &State, shot: &Shot) -> bool {
-    !shot.touched.is_empty()
-}
-
-/// Foul: the cue ball was played from where it may not be put: on the break from elsewhere than
-/// behind the head string, later without having it in hand.
-fn bad_placement(state: &State, shot: &Shot) -> bool {
-    shot.placement.is_some_and(|(zone, ok)| !ok || !state.may_place_in(zone))
-}
-
 /// Foul: the 8 fell after the break although the own group was not gone before the shot.
 fn eight_early(state: &State, shot: &Shot) -> bool {
-    !is_break(state) && shot.has_pocketed(BallId::EIGHT) && !own_group_is_gone(state)
+    !state.is_break() && shot.has_pocketed(BallId::EIGHT) && !own_group_is_gone(state)
 }
 
 /// After the break the 8 decides the game: pocketed without a foul it wins, as it is a foul before
 /// the own group is gone; pocketed with a foul or driven off the table it loses.
 fn winner(state: &State, shot: &Shot, legal: bool) -> Option<PlayerId> {
-    if is_break(state) || !eight_is_gone(shot) {
+    if state.is_break() || !eight_is_gone(shot) {
         return None;
     }
     Some(if legal { state.player } else { state.player.other() })
@@ -147,7 +122,7 @@ fn is_draw(state: &State, shot: &Shot) -> bool {
 /// group; if several fall, the first in time. Once assigned, groups never change.
 fn groups_after(state: &State, shot: &Shot, legal: bool) -> Groups {
     let groups = state.groups.unwrap_or_default();
-    if groups != Groups::Open || !legal || is_break(state) {
+    if groups != Groups::Open || !legal || state.is_break() {
         return groups;
     }
     let first_colour = shot.pocketed.iter().find_map(|pocketed| Group::of(pocketed.ball));
@@ -158,22 +133,18 @@ fn groups_after(state: &State, shot: &Shot, legal: bool) -> Groups {
 fn keeps_turn(state: &State, shot: &Shot, groups: Groups) -> bool {
     let own = groups.of(state.player);
     let mut fallen = shot.pocketed.iter().filter_map(|pocketed| Group::of(pocketed.ball));
-    fallen.any(|group| is_break(state) || Some(group) == own)
+    fallen.any(|group| state.is_break() || Some(group) == own)
 }
 
 /// The 8 that falls or leaves the table on the break is spotted. No other ball ever is.
 fn spotted(state: &State, shot: &Shot) -> SmallVec<[BallId; 4]> {
-    let eight = is_break(state) && eight_is_gone(shot);
+    let eight = state.is_break() && eight_is_gone(shot);
     eight.then_some(BallId::EIGHT).into_iter().collect()
 }
 
 /// After a foul the opponent has the cue ball in hand anywhere, after the break too.
 fn in_hand_after(legal: bool) -> BallInHand {
     if legal { BallInHand::None } else { BallInHand::Anywhere }
-}
-
-fn is_break(state: &State) -> bool {
-    state.shot == ShotKind::Break
 }
 
 fn eight_is_gone(shot: &Shot) -> bool {

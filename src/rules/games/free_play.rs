@@ -1,8 +1,20 @@
 //! Free play: no fouls, no groups, nobody wins.
 
-use super::shot::Shot;
-use super::state::State;
 use crate::events::{BallInHand, Call, TurnAfter, Verdict};
+use crate::rules::game::Game;
+use crate::rules::shot::Shot;
+use crate::rules::state::State;
+
+/// The game. The cue ball is played from where it lies, and in hand anywhere without one.
+pub const GAME: Game = Game {
+    open: |state, has_cue_ball| {
+        state.ball_in_hand = if has_cue_ball { BallInHand::None } else { BallInHand::Anywhere };
+    },
+    judge,
+    ends: "Settled, no object ball is left",
+    in_hand: "Turn, cue ball in hand (it was gone, or its placement refused)",
+    ..Game::USUAL
+};
 
 /// Judges a finished shot: whatever it did, the same player goes on, until no object ball is left.
 pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {

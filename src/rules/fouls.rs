@@ -1,0 +1,81 @@
+//! Fouls that several games know, one function each, with the rule's sentence.
+
+use super::shot::Shot;
+use super::state::State;
+use crate::events::Foul;
+use smallvec::SmallVec;
+
+/// Whether a shot broke one rule.
+pub type Rule = fn(&State, &Shot) -> bool;
+
+/// All fouls of a list that a shot committed, sorted.
+pub fn committed(rules: &[(Foul, Rule)], state: &State, shot: &Shot) -> SmallVec<[Foul; 2]> {
+    let broken = rules.iter().filter(|(_, rule)| rule(state, shot));
+    let mut fouls: SmallVec<[Foul; 2]> = broken.map(|(foul, _)| *foul).collect();
+    fouls.sort_unstable();
+    fouls
+}
+
+/// Foul: the cue ball is down.
+pub fn scratch(_: &State, shot: &Shot) -> bool {
+    shot.cue_pocketed
+}
+
+/// Foul: the cue ball is off the table.
+pub fn cue_ball_off(_: &State, shot: &Shot) -> bool {
+    shot.cue_off
+}
+
+/// Foul: the cue ball met no ball. A touch without a stroke is judged as a touch alone.
+pub fn no_contact(_: &State, shot: &Shot) -> bool {
+    let is_only_a_touch = shot.tips == 0 && !shot.touched.is_empty();
+    shot.first_contacts.is_empty() && !is_only_a_touch
+}
+
+/// Foul: after the first contact no ball was pocketed, driven off the table or driven to a rail. A
+/// ball that already touched a rail is not driven to it. Without a contact that is the foul.
+pub fn no_rail(_: &State, shot: &Shot) -> bool {
+    !shot.first_contacts.is_empty() && shot.rails_after_contact == 0 && shot.gone_after_contact == 0
+}
+
+/// Foul: an object ball is off the table.
+pub fn ball_off(_: &State, shot: &Shot) -> bool {
+    !shot.off.is_empty()
+}
+
+/// Foul: the tip met the cue ball twice.
+pub fn double_hit(_: &State, shot: &Shot) -> bool {
+    shot.tips > 1
+}
+
+/// Foul: the tip was still on the cue ball when that met another ball, not frozen to it before.
+pub fn push(_: &State, shot: &Shot) -> bool {
+    shot.push
+}
+
+/// Foul: a ball was touched by anything but the tip's one stroke or another ball.
+pub fn touched_ball(_: &State, shot: &Shot) -> bool {
+    !shot.touched.is_empty()
+}
+
+/// Foul: the cue ball was played from where it may not be put: outside of its zone, on another
+/// ball, or without having it in hand.
+pub fn bad_placement(state: &State, shot: &Shot) -> bool {
+    shot.placement.is_some_and(|(zone, ok)| !ok || !state.may_place_in(zone))
+}
+
+/// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
+/// behind it too, and the cue ball had not crossed it before.
+pub fn kitchen(state: &State, shot: &Shot) -> bool {
+    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first
+}
+
+/// Foul: a ball still moved, or spun, when the stroke began.
+pub fn moving(_: &State, shot: &Shot) -> bool {
+    shot.moving
+}
+
+/// Foul: somebody shot who was not at the table.
+pub fn out_of_turn(state: &State, shot: &Shot) -> bool {
+    shot.struck_by.is_some_and(|player| player != state.player)
+}
