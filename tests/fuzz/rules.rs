@@ -9,6 +9,8 @@
 mod account;
 /// Judges that are wrong in one point.
 mod canaries;
+/// Small games, all of them.
+mod enumerate;
 /// What must hold in the games of the paper.
 mod paper;
 /// One game of random events.

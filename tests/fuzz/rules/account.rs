@@ -12,6 +12,7 @@ use hapticbillard::rules::{GameKind, Judge, Phase, Referee, Shot, State, game, w
 const POINTS_FALL: [&str; 2] = ["straight", "free_carom"];
 
 /// The account of one game.
+#[derive(Clone)]
 pub struct Account {
     pub kind: GameKind,
     judge: Judge,
@@ -23,7 +24,7 @@ pub struct Account {
     /// Who must act: shoot, or choose.
     pub player: PlayerId,
     pub is_break: bool,
-    shot_number: u32,
+    pub shot_number: u32,
     /// What the referee went by before the shot.
     state: State,
     /// What the special accounts of some games remember.
@@ -81,6 +82,18 @@ impl Account {
             shot_number: 1,
             state: State::default(),
             paper: paper::Memory::default(),
+        }
+    }
+
+    /// The account of a game that goes on from a state.
+    pub fn resumed(kind: GameKind, judge: Judge, state: &State) -> Self {
+        Account {
+            on_table: state.on_table.to_vec(),
+            groups: state.groups,
+            player: state.player,
+            is_break: state.is_break(),
+            paper: paper::Memory::resumed(state),
+            ..Account::new(kind, judge)
         }
     }
 

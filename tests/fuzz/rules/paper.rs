@@ -3,15 +3,23 @@
 use super::account::{Account, Fate, require};
 use hapticbillard::events::{BallInHand, Foul, Group, Groups, TurnAfter, Verdict};
 use hapticbillard::ids::BallId;
+use hapticbillard::rules::State;
 
 /// Balls that an absurd fact may name.
 const NAMED: u16 = 25;
 
 /// What the account of the paper's eight-ball remembers.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 pub struct Memory {
     dry_turns: u32,
     turn_had_pot: bool,
+}
+
+impl Memory {
+    /// What it would remember in a game that stands so.
+    pub fn resumed(state: &State) -> Self {
+        Memory { dry_turns: state.dry_turns, turn_had_pot: state.pocketed_this_turn }
+    }
 }
 
 /// Free play knows no fouls.

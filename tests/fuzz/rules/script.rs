@@ -98,7 +98,7 @@ impl Script {
     }
 }
 
-fn struck(ball: BallId) -> FactKind {
+pub fn struck(ball: BallId) -> FactKind {
     FactKind::CueBallStruck {
         ball,
         push: false,
@@ -109,7 +109,7 @@ fn struck(ball: BallId) -> FactKind {
     }
 }
 
-fn met(a: BallId, b: BallId) -> FactKind {
+pub fn met(a: BallId, b: BallId) -> FactKind {
     FactKind::BallsCollided {
         a,
         b,
@@ -119,7 +119,7 @@ fn met(a: BallId, b: BallId) -> FactKind {
     }
 }
 
-fn cushion(ball: BallId, rail: Rail) -> FactKind {
+pub fn cushion(ball: BallId, rail: Rail) -> FactKind {
     FactKind::CushionHit {
         ball,
         rail,
@@ -129,6 +129,6 @@ fn cushion(ball: BallId, rail: Rail) -> FactKind {
     }
 }
 
-fn down(ball: BallId, pocket: PocketId) -> FactKind {
+pub fn down(ball: BallId, pocket: PocketId) -> FactKind {
     FactKind::BallPocketed { ball, pocket, speed_m_s: 0.0 }
 }
