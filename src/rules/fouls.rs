@@ -2,7 +2,7 @@
 
 use super::shot::Shot;
 use super::state::State;
-use crate::events::Foul;
+use crate::events::{ByPlayer, Foul};
 use smallvec::SmallVec;
 
 /// Whether a shot broke one rule.
@@ -14,6 +14,18 @@ pub fn committed(rules: &[(Foul, Rule)], state: &State, shot: &Shot) -> SmallVec
     let mut fouls: SmallVec<[Foul; 2]> = broken.map(|(foul, _)| *foul).collect();
     fouls.sort_unstable();
     fouls
+}
+
+/// Fouls in a row of each player after a shot: a shot without a foul sets the own count to 0. A
+/// third one counts only for who was told of two; without a warning it is the second again.
+pub fn in_a_row(state: &State, legal: bool) -> ByPlayer<u8> {
+    let own = match (legal, state.fouls.of(state.player)) {
+        (true, _) => 0,
+        (false, 2..) if !state.warned => 2,
+        (false, 2..) => 3,
+        (false, count) => count + 1,
+    };
+    state.fouls.with(state.player, own)
 }
 
 /// Foul: the cue ball is down.

@@ -229,7 +229,7 @@ impl Referee {
 
         let mut sayings = Sayings::new();
         sayings.push(Event::Verdict(verdict.clone()));
-        if !verdict.spot.is_empty() && verdict.options.is_empty() {
+        if !verdict.spotted_now().is_empty() {
             sayings.push(Event::Command(Command::SpotBalls(verdict.spot.clone())));
         }
         if let Some(balls) = verdict.rack {

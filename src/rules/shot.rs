@@ -76,6 +76,8 @@ pub struct Shot {
     pub settled: bool,
     /// Snooker: no ball on can be hit on both edges in a straight line.
     pub snookered: bool,
+    /// Straight pool: the cue ball must give way to the next rack, and is then in hand.
+    pub cue_in_rack: bool,
 }
 
 /// Adds one fact to the shot. Facts come in time order; those at the same time in any order.
@@ -133,9 +135,10 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
             }
         }
         FactKind::BallTouched { ball, by } => shot.touched.push((ball, by)),
-        FactKind::Settled { snookered } => {
+        FactKind::Settled { snookered, cue_in_rack } => {
             shot.settled = true;
             shot.snookered = snookered;
+            shot.cue_in_rack = cue_in_rack;
         }
     }
 }
@@ -235,6 +238,7 @@ impl Shot {
             self.cue_off,
             self.settled,
             self.snookered,
+            self.cue_in_rack,
         ];
         hash.u64(self.cue_ball.0.into());
         hash.u64(zone);

@@ -96,7 +96,10 @@ impl Swarm {
                 true => FactKind::HeadStringCrossed { ball: cue_or_ball },
                 false => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
             },
-            _ => FactKind::Settled { snookered: rng.random_bool(0.3) },
+            _ => FactKind::Settled {
+                snookered: rng.random_bool(0.3),
+                cue_in_rack: rng.random_bool(0.3),
+            },
         }
     }
 }

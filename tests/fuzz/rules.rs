@@ -68,6 +68,21 @@ fn check_corners(kind: GameKind, tally: &Tally) {
             met("calls", tally.calls, 100);
             met("racks", tally.racks, 10);
         }
+        GameKind::WpaNineBall => {
+            met("fouls", tally.fouls, 100);
+            met("wins", tally.wins, 10);
+            met("spotted", tally.spotted, 10);
+            met("choices", tally.choices, 10);
+            met("calls", tally.calls, 10);
+        }
+        GameKind::Straight => {
+            met("fouls", tally.fouls, 100);
+            met("points", tally.points, 100);
+            met("spotted", tally.spotted, 100);
+            met("choices", tally.choices, 10);
+            met("calls", tally.calls, 100);
+            met("racks", tally.racks, 10);
+        }
     }
 }
 

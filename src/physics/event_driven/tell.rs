@@ -222,7 +222,7 @@ impl EventDriven {
         if let Some(tip) = &mut self.tip {
             tip.cue.has_struck = false;
         }
-        self.tell(at, FactKind::Settled { snookered: false });
+        self.tell(at, FactKind::Settled { snookered: false, cue_in_rack: false });
     }
 
     pub(super) fn note_track(&mut self, index: usize) {

@@ -157,7 +157,7 @@ impl FixedStep {
         if let Some(cue) = &mut self.cue {
             cue.guided.has_struck = false;
         }
-        self.tell(now, FactKind::Settled { snookered: false });
+        self.tell(now, FactKind::Settled { snookered: false, cue_in_rack: false });
     }
 
     /// A shot begins here for this ball: it has been away from the rails that it does not touch.

@@ -3,7 +3,8 @@
 use super::paper;
 use super::play::Tally;
 use hapticbillard::events::{
-    BallInHand, Call, Command, Event, Fact, FactKind, Groups, Racked, Turn, TurnAfter, Verdict,
+    BallInHand, Call, Choice, Command, Event, Fact, FactKind, Groups, Racked, Turn, TurnAfter,
+    Verdict,
 };
 use hapticbillard::ids::{BallId, PlayerId};
 use hapticbillard::rules::{GameKind, Judge, Phase, Referee, Shot, State, game, watch};
@@ -129,7 +130,11 @@ impl Account {
         let may_change = is_racked || self.groups == Some(Groups::Open);
         require(may_change || verdict.groups == self.groups, "groups changed")?;
         self.groups = verdict.groups;
-        let spots = verdict.options.is_empty();
+        // Only of the 8 on the break somebody chooses whether it returns.
+        let is_chosen = |choice: &Choice| {
+            matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen)
+        };
+        let spots = !verdict.options.iter().any(is_chosen);
         self.move_balls(&fate, verdict, spots)?;
         require(referee.state().on_table.as_slice() == self.on_table, "balls are miscounted")?;
         self.check_score(verdict, referee)?;

@@ -104,7 +104,7 @@ fn one_shot(
     };
     let ball = referee.state().cue_ball;
     let placed = zone.map(|zone| FactKind::BallPlaced { ball, zone, ok: true });
-    let settled = FactKind::Settled { snookered: false };
+    let settled = FactKind::Settled { snookered: false, cue_in_rack: false };
     let all =
         placed.into_iter().chain([struck(ball)]).chain(between.iter().copied()).chain([settled]);
     for (number, kind) in all.enumerate() {

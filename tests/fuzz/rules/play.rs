@@ -69,7 +69,7 @@ impl Tally {
 pub fn play(kind: GameKind, judge: Judge, rng: &mut impl Rng) -> Result<Tally, String> {
     let swarm = Swarm::new(rng);
     let mut referee = Referee::with_judge(kind, judge);
-    let rest = fact(0.0, FactKind::Settled { snookered: false });
+    let rest = fact(0.0, FactKind::Settled { snookered: false, cue_in_rack: false });
     if !referee.handle(&rest).is_empty() {
         return Err("something was said before the game began".into());
     }

@@ -86,7 +86,10 @@ impl Script {
         if rng.random_bool(0.05) {
             self.happen(down(cue_ball, pocket));
         }
-        self.happen(FactKind::Settled { snookered: rng.random_bool(0.2) });
+        self.happen(FactKind::Settled {
+            snookered: rng.random_bool(0.2),
+            cue_in_rack: rng.random_bool(0.2),
+        });
     }
 
     fn say(&mut self, call: Call) {
