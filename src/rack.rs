@@ -58,6 +58,22 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
+    /// The rack that is set up in the same way for the `serial`-th time, counted from 0: each
+    /// stands a little otherwise. Balls that were listed lie as they were listed.
+    pub fn again(&self, serial: u32) -> Rack {
+        let next = |seed: u64| {
+            let mut random = Pcg64Mcg::seed_from_u64(seed);
+            random.advance(u128::from(serial));
+            if serial == 0 { seed } else { random.next_u64() }
+        };
+        let layout = match &self.layout {
+            Layout::EightBall { seed } => Layout::EightBall { seed: next(*seed) },
+            Layout::NineBall { seed } => Layout::NineBall { seed: next(*seed) },
+            Layout::Balls(balls) => Layout::Balls(balls.clone()),
+        };
+        Rack { layout }
+    }
+
     /// These balls, just as they are.
     pub fn from_balls(balls: Vec<(Ball, BallState)>) -> Rack {
         Rack { layout: Layout::Balls(balls) }

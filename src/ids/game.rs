@@ -15,6 +15,8 @@ macro_rules! for_all_games {
             WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
+            /// Practice: any ball is put anywhere, shots are taken back.
+            Training "training" "training" training;
         }
     };
 }

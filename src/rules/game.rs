@@ -33,6 +33,8 @@ pub struct Game {
     pub names: &'static [&'static str],
     /// Whether players have points.
     pub has_score: bool,
+    /// Any ball may be put anywhere, and shots are taken back.
+    pub is_practice: bool,
     /// What ends the game, for the diagram.
     pub ends: &'static str,
     /// When the cue ball is in hand, for the diagram.
@@ -70,6 +72,7 @@ impl Game {
         balls: 15,
         names: &[],
         has_score: false,
+        is_practice: false,
         ends: "Settled, somebody has won",
         in_hand: "Turn, cue ball in hand",
     };

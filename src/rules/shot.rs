@@ -166,6 +166,15 @@ impl Shot {
         Shot { cue_ball, ..Shot::default() }
     }
 
+    /// A hand has brought a ball back that was gone.
+    pub fn bring_back(&mut self, ball: BallId) {
+        if ball == self.cue_ball {
+            (self.cue_pocketed, self.cue_off) = (false, false);
+        }
+        self.pocketed.retain(|pocketed| pocketed.ball != ball);
+        self.off.retain(|off| *off != ball);
+    }
+
     /// The object balls that were driven to a rail, went down or left the table.
     pub fn driven(&self) -> SmallVec<[BallId; 16]> {
         let to_rails = self.rails.iter().map(|(ball, _)| *ball);

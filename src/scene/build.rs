@@ -4,7 +4,7 @@ use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::physics::Parameters;
+use crate::physics::{Parameters, Racks};
 use crate::rack::Rack;
 use crate::table::Table;
 use glam::{DQuat, DVec3};
@@ -48,12 +48,7 @@ impl Scene {
     pub fn build_balls(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, SceneError> {
         let mut balls = Vec::new();
         if let Some(section) = &self.balls {
-            let seed = self.about.seed;
-            let rack = match section.rack {
-                RackKind::EightBall => Rack::eight_ball(seed),
-                RackKind::NineBall => Rack::nine_ball(seed),
-            };
-            balls = rack.place(table).map_err(|error| {
+            balls = self.rack(section.rack).place(table).map_err(|error| {
                 let (found, fix) = (section.rack.name(), "write [table] and preset = \"pool-9ft\"");
                 self.error(section.line, "balls.rack", found, &error.to_string(), fix)
             })?;
@@ -88,6 +83,24 @@ impl Scene {
         }
         balls.sort_by_key(|(ball, _)| ball.id);
         Ok(balls)
+    }
+
+    /// How the scene's balls are racked, as often as its rules ask for it.
+    pub fn racks(&self, table: &Table) -> Racks {
+        let apart: Vec<_> = self.ball.iter().map(BallSection::placed).collect();
+        let rack = match &self.balls {
+            Some(section) => self.rack(section.rack),
+            None => Rack::from_balls(Vec::new()),
+        };
+        Racks::new(rack, apart, table)
+    }
+
+    fn rack(&self, kind: RackKind) -> Rack {
+        let seed = self.about.seed;
+        match kind {
+            RackKind::EightBall => Rack::eight_ball(seed),
+            RackKind::NineBall => Rack::nine_ball(seed),
+        }
     }
 
     /// The numbers of the contact laws, with those of the scene's own cue.

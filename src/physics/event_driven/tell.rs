@@ -222,6 +222,7 @@ impl EventDriven {
         if let Some(tip) = &mut self.tip {
             tip.cue.has_struck = false;
         }
+        self.memory.end();
         self.tell(at, FactKind::Settled { snookered: false });
     }
 

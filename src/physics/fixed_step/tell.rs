@@ -157,6 +157,7 @@ impl FixedStep {
         if let Some(cue) = &mut self.cue {
             cue.guided.has_struck = false;
         }
+        self.memory.end();
         self.tell(now, FactKind::Settled { snookered: false });
     }
 
