@@ -69,10 +69,11 @@ impl Cast {
         let tip_radius_m = parameters.tip_radius_m;
         let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?
             .with_racks(scene.racks(&table));
-        let simulation = match scene.rules.as_ref().map(|rules| game(rules.game).is_practice) {
-            None => simulation,
-            Some(true) => simulation.with_memory(UNDO_SHOTS),
-            Some(false) => simulation.with_object_balls_left_alone(),
+        let is_practice = scene.rules.is_some_and(|rules| game(rules.game).is_practice);
+        let simulation = match (is_practice, scene.rules) {
+            (_, None) => simulation,
+            (true, Some(_)) => simulation.with_memory(UNDO_SHOTS),
+            (false, Some(_)) => simulation.with_object_balls_left_alone(),
         };
         let referee = scene
             .rules
@@ -102,6 +103,7 @@ impl Cast {
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)
         });
+        let human = human.map(|human| if is_practice { human.for_practice() } else { human });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })
     }

@@ -120,6 +120,8 @@ pub enum CallKind {
     Safety,
     /// Nine-ball, after the break: order and rails do not matter.
     PushOut,
+    /// Nothing: what was announced before is taken back.
+    Nothing,
 }
 
 /// What a player may announce before a shot.

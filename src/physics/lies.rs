@@ -1,7 +1,7 @@
 //! Where balls lie: what a rack lays down, and what comes back when a shot is taken back.
 
 use crate::ball::{BallPlace, BallState};
-use crate::events::Command;
+use crate::events::{Command, FactKind, Zone};
 use crate::hash::StateHash;
 use crate::ids::BallId;
 use glam::{DQuat, DVec3};
@@ -19,6 +19,17 @@ pub struct Lie {
     pub position: DVec3,
     /// How it is turned.
     pub orientation: DQuat,
+}
+
+impl Lie {
+    /// What is told when a shot was taken back, so that whoever holds the cue looks again.
+    pub const TAKEN_BACK: FactKind =
+        FactKind::BallPlaced { ball: BallId::CUE, zone: Zone::Anywhere, ok: true };
+
+    /// Whether this is the cue ball and it lies on the table.
+    pub fn is_cue_ball_on_table(&self) -> bool {
+        self.ball == BallId::CUE && self.place == BallPlace::OnTable
+    }
 }
 
 impl From<&BallState> for Lie {

@@ -7,7 +7,7 @@ use super::phase::Phase;
 use super::referee::Referee;
 use super::state::State;
 use crate::events::Choice;
-use crate::events::{Call, Command, Event, Source, Turn, Verdict};
+use crate::events::{Call, CallKind, Command, Event, Source, Turn, Verdict};
 use crate::ids::BallId;
 use crate::ids::GameKind;
 use crate::one_line::{one_line, without_place};
@@ -170,6 +170,7 @@ impl Console {
         let mut after = self.referee.clone();
         let said = after.obey(Source::Input, &command);
         let is_heard = match &command {
+            Command::Call(Call::Kind(CallKind::Nothing)) => after.call().is_none(),
             Command::Call(call) => after.call() == Some(call),
             _ => !said.is_empty(),
         };

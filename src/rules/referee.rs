@@ -146,7 +146,8 @@ impl Referee {
                 self.take_choice(*choice)
             }
             (Phase::Placing | Phase::Waiting, Command::Call(call)) if self.may_call(call) => {
-                self.call = Some(call.clone());
+                let is_taken_back = *call == Call::Kind(CallKind::Nothing);
+                self.call = (!is_taken_back).then(|| call.clone());
                 Sayings::new()
             }
             (Phase::Placing | Phase::Waiting | Phase::Shooting, Command::Undo) => self.take_back(),
@@ -187,6 +188,7 @@ impl Referee {
             }
             Call::Kind(CallKind::Safety) => calls.safety,
             Call::Kind(CallKind::PushOut) => calls.push_out,
+            Call::Kind(CallKind::Nothing) => true,
         }
     }
 
@@ -387,7 +389,7 @@ impl Participant for Referee {
             hash.u64((*shot_number).into());
         }
         hash.u64(match self.call {
-            None => 0,
+            None | Some(Call::Kind(CallKind::Nothing)) => 0,
             Some(Call::Kind(CallKind::Safety)) => 1,
             Some(Call::Kind(CallKind::PushOut)) => 2,
             Some(Call::Ball { ball, pocket }) => {

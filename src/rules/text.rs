@@ -2,8 +2,11 @@
 //!
 //! The rules themselves speak in codes; the words are in `config/text/`.
 
-use crate::events::{BallInHand, Group, Groups, ShotKind, Turn, TurnAfter, Verdict};
-use crate::ids::{BallId, PlayerId};
+use super::ball_names::ball_name;
+use crate::events::{
+    BallInHand, BallOn, Call, CallKind, Group, Groups, ShotKind, Turn, TurnAfter, Verdict,
+};
+use crate::ids::{BallId, GameKind, PlayerId};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -43,6 +46,7 @@ impl Language {
 pub struct Texts {
     table: toml::Table,
     names: [String; 2],
+    game: Option<GameKind>,
 }
 
 impl Texts {
@@ -50,7 +54,7 @@ impl Texts {
     pub fn new(language: Language) -> Self {
         // The file is compiled in and a test reads it: it cannot fail on a user's machine.
         let table = language.file().parse().unwrap_or_default();
-        let mut texts = Texts { table, names: Default::default() };
+        let mut texts = Texts { table, names: Default::default(), game: None };
         texts.names = ["1", "2"].map(|number| texts.fill("player", "name", "number", number));
         texts
     }
@@ -59,6 +63,12 @@ impl Texts {
     #[must_use]
     pub fn with_names(self, one: &str, two: &str) -> Self {
         Texts { names: [one.into(), two.into()], ..self }
+    }
+
+    /// The same, with the names that a game has for its balls.
+    #[must_use]
+    pub fn for_game(self, game: GameKind) -> Self {
+        Texts { game: Some(game), ..self }
     }
 
     /// What a verdict says, for example "Foul: the cue ball was pocketed. Ball in hand for
@@ -72,7 +82,7 @@ impl Texts {
             sentences.push(self.fill("verdict", "foul", "reasons", &reasons));
         }
         if !verdict.spot.is_empty() {
-            sentences.push(self.fill("verdict", "spot", "balls", &list(&verdict.spot)));
+            sentences.push(self.fill("verdict", "spot", "balls", &self.list(&verdict.spot)));
         }
         sentences.push(match (verdict.turn, verdict.winner, verdict.next_player) {
             (TurnAfter::End, Some(winner), _) => self.about("verdict", "winner", winner),
@@ -105,7 +115,44 @@ impl Texts {
             }),
         };
         sentences.extend(plays.map(|key| self.about("turn", key, turn.player)));
+        sentences.extend(self.ball_on(turn));
         sentences.join(" ")
+    }
+
+    /// Which ball must be met first, where that is not for the groups to say.
+    fn ball_on(&self, turn: &Turn) -> Option<String> {
+        let ball = match (turn.on, &turn.legal_first[..]) {
+            (Some(BallOn::Ball(ball)), _) => ball,
+            (Some(on), _) => return Some(self.get("on", &code(&on))),
+            (None, [ball]) if turn.groups.is_none() && turn.on_table.len() > 1 => *ball,
+            _ => return None,
+        };
+        Some(self.fill("on", "ball", "ball", &self.ball(ball)))
+    }
+
+    /// What was announced, for example "Called: the 5 into the pocket at the head, left."
+    pub fn call(&self, call: &Call) -> String {
+        match call {
+            Call::Ball { ball, pocket: None } => {
+                self.fill("call", "nominated", "ball", &self.ball(*ball))
+            }
+            Call::Ball { ball, pocket: Some(pocket) } => {
+                let pocket = self.get("pocket", &code(pocket));
+                let text = self.fill("call", "ball", "ball", &self.ball(*ball));
+                text.replace("{pocket}", &pocket)
+            }
+            Call::Kind(CallKind::Nothing) => String::new(),
+            Call::Kind(kind) => self.get("call", &code(kind)),
+        }
+    }
+
+    /// What a ball is called.
+    fn ball(&self, ball: BallId) -> String {
+        self.game.map_or_else(|| ball.to_string(), |game| ball_name(game, ball))
+    }
+
+    fn list(&self, balls: &[BallId]) -> String {
+        balls.iter().map(|ball| self.ball(*ball)).collect::<Vec<_>>().join(", ")
     }
 
     /// Why a verdict is as it is: one sentence per foul, then what became of turn and game.
@@ -159,14 +206,11 @@ fn code(value: &impl Serialize) -> String {
     }
 }
 
-fn list(balls: &[BallId]) -> String {
-    balls.iter().map(BallId::to_string).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::events::Foul;
+    use crate::ids::PocketId;
     use smallvec::smallvec;
 
     /// All fouls. The match keeps the list complete: a new foul does not compile without a place.
@@ -204,6 +248,20 @@ mod tests {
                     let text = texts.find(section, &code(&foul));
                     assert!(text.is_some_and(|text| text.len() > 10), "{language:?} {foul:?}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn every_call_has_its_sentence_in_both_languages() {
+        for language in Language::ALL {
+            let texts = Texts::new(language);
+            for pocket in PocketId::ALL {
+                let text = texts.call(&Call::Ball { ball: BallId(5), pocket: Some(pocket) });
+                assert!(text.contains('5') && !text.contains(['{', '_']), "{text}");
+            }
+            for kind in [CallKind::Safety, CallKind::PushOut] {
+                assert!(!texts.call(&Call::Kind(kind)).contains("call."), "{language:?} {kind:?}");
             }
         }
     }

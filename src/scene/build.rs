@@ -2,6 +2,7 @@
 
 use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
+use crate::ids::GameKind;
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::mesh::{Face, Mesh, parse_obj};
 use crate::physics::{Parameters, Racks};
@@ -110,6 +111,11 @@ impl Scene {
             cue.apply(&mut parameters);
         }
         parameters
+    }
+
+    /// Why this scene is none of a game, and what helps; none if it is one.
+    pub fn misfit(&self, game: GameKind) -> Option<(String, String)> {
+        super::check::misfit(self, game)
     }
 
     /// The players whose commands come from the input: at a mouse, or from a recording.

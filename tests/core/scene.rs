@@ -377,7 +377,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "[table]\npreset = \"pool-9ft\"\n[cue]\n[balls]\nrack = \"eight-ball\"\n[rules]\ngame = \
          \"paper-eight-ball\"\n[[player]]\nname = \"A\"\nkind = \"paper\"\n",
-        "10: rules.game = \"paper-eight-ball\": eight-ball has two players; write a second \
+        "10: rules.game = \"paper-eight-ball\": paper-eight-ball has two players; write a second \
          [[player]]",
     );
     after_head(
@@ -481,7 +481,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "[table]\npreset = \"pool-9ft\"\n[cue]\n[input]\n[rules]\ngame = \
          \"paper-eight-ball\"\n[[player]]\nname = \"A\"\nkind = \"human\"\n[balls]\nrack = \
          \"nine-ball\"\n",
-        "9: rules.game = \"paper-eight-ball\": eight-ball begins with its rack; write [balls] \
+        "9: rules.game = \"paper-eight-ball\": paper-eight-ball begins with its rack; write [balls] \
          and rack = \"eight-ball\"",
     );
 }

@@ -50,6 +50,9 @@ impl EventDriven {
             Command::Undo => {
                 if let Some(lies) = self.memory.take_back() {
                     self.lay_all(at, &lies);
+                    if lies.iter().any(Lie::is_cue_ball_on_table) {
+                        self.tell(at, Lie::TAKEN_BACK);
+                    }
                 }
             }
             // The rules' business, and [`Simulation`](crate::physics::Simulation)'s.

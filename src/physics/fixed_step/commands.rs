@@ -59,6 +59,10 @@ impl FixedStep {
                 Command::Undo => {
                     if let Some(lies) = self.memory.take_back() {
                         self.lay_all(&lies);
+                        if lies.iter().any(Lie::is_cue_ball_on_table) {
+                            let now = self.grid(self.step);
+                            self.tell(now, Lie::TAKEN_BACK);
+                        }
                     }
                 }
                 // The rules' business, and [`Simulation`](crate::physics::Simulation)'s.
