@@ -20,6 +20,8 @@ impl BallId {
     pub const CUE: BallId = BallId(0);
     /// The black ball of eight-ball.
     pub const EIGHT: BallId = BallId(8);
+    /// The ball that decides nine-ball.
+    pub const NINE: BallId = BallId(9);
 }
 
 impl fmt::Display for BallId {

@@ -4,6 +4,10 @@
 //! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
 //! exists nor has a unique break.
 
+mod next;
+
+pub use next::{CueBallGoes, NextRack, next_rack};
+
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
@@ -61,17 +65,27 @@ impl Rack {
     /// The rack that is set up in the same way for the `serial`-th time, counted from 0: each
     /// stands a little otherwise. Balls that were listed lie as they were listed.
     pub fn again(&self, serial: u32) -> Rack {
-        let next = |seed: u64| {
-            let mut random = Pcg64Mcg::seed_from_u64(seed);
-            random.advance(u128::from(serial));
-            if serial == 0 { seed } else { random.next_u64() }
-        };
+        let seed = self.seed(serial);
         let layout = match &self.layout {
-            Layout::EightBall { seed } => Layout::EightBall { seed: next(*seed) },
-            Layout::NineBall { seed } => Layout::NineBall { seed: next(*seed) },
+            Layout::EightBall { .. } => Layout::EightBall { seed },
+            Layout::NineBall { .. } => Layout::NineBall { seed },
             Layout::Balls(balls) => Layout::Balls(balls.clone()),
         };
         Rack { layout }
+    }
+
+    /// What is left to chance when balls are racked for the `serial`-th time.
+    pub fn seed(&self, serial: u32) -> u64 {
+        let first = match &self.layout {
+            Layout::EightBall { seed } | Layout::NineBall { seed } => *seed,
+            Layout::Balls(_) => 0,
+        };
+        if serial == 0 {
+            return first;
+        }
+        let mut random = Pcg64Mcg::seed_from_u64(first);
+        random.advance(u128::from(serial));
+        random.next_u64()
     }
 
     /// These balls, just as they are.
@@ -94,11 +108,8 @@ impl Rack {
         };
         let bed = table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() })?;
         let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
-        for (id, place) in order.into_iter().zip(places(rows, &bed)) {
-            let off = DVec2::new(unit(&mut random), unit(&mut random));
-            // A point of a square, drawn into the circle, so that no pair can come too near.
-            let off = off / off.length().max(1.0) * JITTER_MAX_M;
-            balls.push(standing(Ball::pool(BallId(id)), place + off));
+        for (id, place) in order.into_iter().zip(jittered(rows, &bed, &mut random)) {
+            balls.push(standing(Ball::pool(BallId(id)), place));
         }
         sorted(balls)
     }
@@ -139,12 +150,30 @@ fn nine_ball_order(random: &mut Pcg64Mcg) -> Vec<u16> {
     order
 }
 
+/// Distances [m] from ball to ball in a row, and from row to row.
+fn pitches() -> (f64, f64) {
+    // Neighbours that both step towards each other still do not overlap.
+    let pitch = 2.0 * (crate::ball::POOL_RADIUS_M + JITTER_MAX_M) + 1e-9;
+    (pitch, 0.75f64.sqrt() * pitch)
+}
+
+/// The places of a rack, each a little off.
+fn jittered<'a>(
+    rows: &'a [u16],
+    bed: &Bed,
+    random: &'a mut Pcg64Mcg,
+) -> impl Iterator<Item = DVec2> + 'a {
+    places(rows, bed).map(|place| {
+        let off = DVec2::new(unit(random), unit(random));
+        // A point of a square, drawn into the circle, so that no pair can come too near.
+        place + off / off.length().max(1.0) * JITTER_MAX_M
+    })
+}
+
 /// Places row by row from the apex on the foot spot towards the foot rail.
 fn places<'a>(rows: &'a [u16], bed: &Bed) -> impl Iterator<Item = DVec2> + 'a {
     let apex = bed.foot_spot();
-    // Neighbours that both step towards each other still do not overlap.
-    let pitch = 2.0 * (crate::ball::POOL_RADIUS_M + JITTER_MAX_M) + 1e-9;
-    let row_pitch = 0.75f64.sqrt() * pitch;
+    let (pitch, row_pitch) = pitches();
     rows.iter().enumerate().flat_map(move |(row, count)| {
         (0..*count).map(move |i| {
             let across = (f64::from(i) - 0.5 * f64::from(count - 1)) * pitch;

@@ -308,7 +308,8 @@ impl Desk {
                     MouseButton::Other(_) => return,
                 };
                 let down = state == ElementState::Pressed;
-                let picked = if (button, down) == (Button::Left, true) { self.picked() } else { None };
+                let picked =
+                    if (button, down) == (Button::Left, true) { self.picked() } else { None };
                 self.screen.outbox.say(match picked {
                     Some(option) => RawInput::Picked { option },
                     None => RawInput::Button { button, down },

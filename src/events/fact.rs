@@ -126,7 +126,15 @@ pub enum FactKind {
         /// Snooker: no ball on can be hit on both edges in a straight line.
         #[serde(default)]
         snookered: bool,
+        /// Straight pool, one object ball or none is left: the cue ball lies where the others are
+        /// racked, and so that it must be played from behind the head string.
+        #[serde(default, skip_serializing_if = "is_false")]
+        cue_in_rack: bool,
     },
+}
+
+fn is_false(flag: &bool) -> bool {
+    !*flag
 }
 
 /// What touched a ball against the rules.

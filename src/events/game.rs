@@ -39,7 +39,7 @@ pub enum Command {
 /// Which balls are racked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Racking {
-    /// Counts the racks of a game from 0, which the game began with: each stands a little otherwise.
+    /// Counts the racks of a game from 0, which it began with: each stands a little otherwise.
     pub serial: u32,
     /// All of them, or those that fell.
     pub balls: Racked,
@@ -372,6 +372,13 @@ pub enum TurnAfter {
     End,
 }
 
+impl TurnAfter {
+    /// What becomes of the turn of `player` when `next` shoots.
+    pub fn before(player: PlayerId, next: PlayerId) -> Self {
+        if next == player { TurnAfter::Continue } else { TurnAfter::Pass }
+    }
+}
+
 /// What a player may choose after a shot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -437,6 +444,15 @@ pub struct Verdict {
     /// Balls that are racked now.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rack: Option<Racked>,
+}
+
+impl Verdict {
+    /// Balls that return to the table at once; none where that is a matter of choice.
+    pub fn spotted_now(&self) -> &[BallId] {
+        let decides =
+            |choice| matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen);
+        if self.options.iter().copied().any(decides) { &[] } else { &self.spot }
+    }
 }
 
 fn is_false(flag: &bool) -> bool {

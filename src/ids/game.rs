@@ -13,6 +13,10 @@ macro_rules! for_all_games {
             PaperEightBall "paper-eight-ball" "paper8" paper_eight_ball;
             /// Eight-ball by the rules of the WPA.
             WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
+            /// Nine-ball by the rules of the WPA.
+            WpaNineBall "wpa-nine-ball" "wpa9" wpa_nine_ball;
+            /// Straight pool, 14.1 continuous, by the rules of the WPA.
+            Straight "straight" "straight" straight;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
             /// Practice: any ball is put anywhere, shots are taken back.

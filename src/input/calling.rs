@@ -27,7 +27,7 @@ pub(super) struct Calling {
     /// ball.
     ball: Option<BallId>,
     pocket: Option<PocketId>,
-    /// The ball that the aim met when these were chosen.
+    /// The ball that the aim proposes.
     aimed: Option<BallId>,
     /// What the referee was told last.
     said: Option<Call>,
@@ -48,6 +48,14 @@ pub(super) struct Sight<'a> {
 }
 
 impl Calling {
+    /// The aim has changed: what was chosen for another ball is forgotten.
+    pub fn follow(&mut self, sight: &Sight<'_>) {
+        let proposed = sight.proposed();
+        if self.aimed != proposed {
+            (self.ball, self.pocket, self.aimed) = (None, None, proposed);
+        }
+    }
+
     /// A key went down that changes the call. True if it is one.
     pub fn key(&mut self, letter: Option<char>, backwards: bool, sight: &Sight<'_>) -> bool {
         let calls = sight.turn.calls;
@@ -69,7 +77,7 @@ impl Calling {
     fn next_ball(&mut self, sight: &Sight<'_>, backwards: bool) {
         let now = self.ball_of(sight);
         let balls: Vec<BallId> = sight.callable().map(|(ball, _)| ball).collect();
-        (self.kind, self.aimed) = (None, sight.proposed());
+        self.kind = None;
         self.ball = next(&balls, now, backwards);
         self.pocket = None;
     }
@@ -77,21 +85,16 @@ impl Calling {
     fn next_pocket(&mut self, sight: &Sight<'_>, backwards: bool) {
         let now = self.pocket_of(sight);
         let pockets: Vec<PocketId> = sight.pockets.iter().map(|pocket| pocket.id).collect();
-        if self.aimed != sight.proposed() {
-            (self.ball, self.aimed) = (None, sight.proposed());
-        }
         self.kind = None;
         self.pocket = next(&pockets, now, backwards);
     }
 
     fn ball_of(&self, sight: &Sight<'_>) -> Option<BallId> {
-        let proposed = sight.proposed();
-        self.ball.filter(|_| self.aimed == proposed).or(proposed)
+        self.ball.or_else(|| sight.proposed())
     }
 
     fn pocket_of(&self, sight: &Sight<'_>) -> Option<PocketId> {
-        let chosen = self.pocket.filter(|_| self.aimed == sight.proposed());
-        chosen.or_else(|| sight.pocket_for(self.ball_of(sight)?))
+        self.pocket.or_else(|| sight.pocket_for(self.ball_of(sight)?))
     }
 
     /// What would be announced if the stroke came now; none if nothing is, or nothing may be.
@@ -168,11 +171,7 @@ impl Sight<'_> {
 }
 
 /// The item after this one, or before it, round a list.
-pub(super) fn next<T: Copy + PartialEq>(
-    items: &[T],
-    now: Option<T>,
-    backwards: bool,
-) -> Option<T> {
+pub(super) fn next<T: Copy + PartialEq>(items: &[T], now: Option<T>, backwards: bool) -> Option<T> {
     let count = items.len();
     let at = items.iter().position(|item| Some(*item) == now);
     let step = if backwards { count.saturating_sub(1) } else { 1 };

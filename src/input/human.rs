@@ -19,7 +19,9 @@
 //! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
 //! somebody else holds `f`, and time runs faster.
 
-use super::calling::{self, Calling};
+mod says;
+
+use super::calling::Calling;
 use super::camera::{Camera, Viewpoint};
 use super::feel::{
     AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
@@ -371,8 +373,7 @@ impl Human {
         change(&mut aim);
         aim = aim.limited();
         let cue_ball = self.cue_ball();
-        let needed =
-            sight::elevation_needed(aim, self.centre, cue_ball, &self.seen, &self.table);
+        let needed = sight::elevation_needed(aim, self.centre, cue_ball, &self.seen, &self.table);
         aim.elevation_rad = self.raised_rad.max(needed);
         if aim == self.aim {
             return;
@@ -385,6 +386,7 @@ impl Human {
     fn sight(&mut self) {
         let (seen, bed) = (&self.seen, self.table.bed.as_ref());
         self.ghost = sight::ghost(seen, bed, self.cue_ball(), self.centre, self.aimed_along());
+        self.follow_with_call();
     }
 
     /// The left button went down.
@@ -536,81 +538,10 @@ impl Human {
         self.turn.as_ref().map_or(BallId::CUE, |turn| turn.cue_ball)
     }
 
-    /// Takes an option, if there is one of this number.
-    fn pick(&mut self, option: usize) {
-        let turn = self.turn.as_ref().filter(|_| matches!(self.stage, Stage::Choosing));
-        let choice = turn.and_then(|turn| turn.options.get(option).copied());
-        if let (Some(choice), false) = (choice, self.paused) {
-            self.command(Command::Choose(choice));
-        }
-    }
-
-    fn call_sight(&self) -> Option<calling::Sight<'_>> {
-        Some(calling::Sight {
-            turn: self.turn.as_deref()?,
-            table: &self.seen,
-            pockets: &self.table.pockets,
-            centre: self.centre,
-            direction: self.aimed_along(),
-        })
-    }
-
     /// Horizontal unit vector of the aim.
     fn aimed_along(&self) -> DVec2 {
         let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
         DVec2::new(cos, sin)
-    }
-
-    /// A key that goes to the next thing: ball in hand, pocket, ball, or kind of call.
-    fn step(&mut self, letter: Option<char>) {
-        let backwards = self.held.has(Key::Shift);
-        match &self.stage {
-            _ if self.paused => {}
-            Stage::Placing(placing) if self.is_practice && letter.is_none() => {
-                let now = placing.ball;
-                let ids: Vec<BallId> = self.seen.balls.iter().map(|ball| ball.id).collect();
-                if let Some(ball) = calling::next(&ids, Some(now), backwards) {
-                    self.hold(ball, Zone::Anywhere);
-                }
-            }
-            Stage::Aiming => {
-                let mut calling = std::mem::take(&mut self.calling);
-                if let Some(sight) = self.call_sight() {
-                    calling.key(letter, backwards, &sight);
-                }
-                self.calling = calling;
-            }
-            _ => {}
-        }
-    }
-
-    /// Says what the stroke that begins is meant to do.
-    fn announce(&mut self) {
-        let mut calling = std::mem::take(&mut self.calling);
-        let call = self.call_sight().and_then(|sight| calling.say(&sight));
-        self.calling = calling;
-        if let Some(call) = call {
-            self.command(Command::Call(call));
-        }
-    }
-
-    /// Training: the last shot was none.
-    fn take_shot_back(&mut self) {
-        self.let_go();
-        self.command(Command::Undo);
-    }
-
-    /// Training: takes a ball up, or puts it back where it was.
-    fn take_up(&mut self) {
-        let cue_ball = self.cue_ball();
-        match self.stage {
-            Stage::Aiming => {
-                self.command(Command::LiftCue);
-                self.hold(cue_ball, Zone::Anywhere);
-            }
-            Stage::Placing(_) => self.address(),
-            _ => {}
-        }
     }
 
     /// Puts the cue behind the cue ball.

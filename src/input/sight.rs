@@ -33,8 +33,9 @@ pub(super) fn meets(centre: DVec3, direction: DVec2, place: DVec2) -> Option<f64
 /// Where a turn's first aim points: at the rack's apex on a break, else (or if nobody racked) at
 /// the nearest ball that may be met first, and along the table if there is none.
 pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: DVec2) -> DVec2 {
-    let is_racked =
-        |apex: &DVec2| others(table, turn.cue_ball).any(|ball| ball.truncate().distance(*apex) < ball.z);
+    let is_racked = |apex: &DVec2| {
+        others(table, turn.cue_ball).any(|ball| ball.truncate().distance(*apex) < ball.z)
+    };
     let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break).filter(is_racked);
     let nearest = || {
         let may_be_met = |id: &BallId| turn.legal_first.contains(id);

@@ -35,7 +35,9 @@ mod tip;
 
 pub use segment::{Course, Segment};
 
-use super::{Ledger, Lie, Memory, Order, Parameters, PhysicsError, Solver, Work, checks, tolerance};
+use super::{
+    Ledger, Lie, Memory, Order, Parameters, PhysicsError, Solver, Work, checks, tolerance,
+};
 use crate::ball::{Ball, BallState};
 use crate::cue::CuePose;
 use crate::events::{Command, Fact, FactSet};
@@ -230,13 +232,11 @@ impl EventDriven {
             Next::Ball(index) => self.ball_event(at, index)?,
             Next::Tip => self.tip_event(at)?,
             Next::Lasting => self.step_lasting(at)?,
-            Next::Command => {
-                match self.commands.pop_front() {
-                    Some((_, Order::Command(command))) => self.carry_out(at, &command)?,
-                    Some((_, Order::Lay(lies))) => self.lay_all(at, &lies),
-                    None => {}
-                }
-            }
+            Next::Command => match self.commands.pop_front() {
+                Some((_, Order::Command(command))) => self.carry_out(at, &command)?,
+                Some((_, Order::Lay(lies))) => self.lay_all(at, &lies),
+                None => {}
+            },
             Next::Settle => self.settle(at),
             Next::Nothing => {}
         }

@@ -1,10 +1,12 @@
 //! The racks of a game: what [`Command::Rack`](crate::events::Command::Rack) lays down.
 
 use super::{Lie, Snapshot};
-use crate::ball::{Ball, BallPlace, BallState};
+use crate::ball::{Ball, BallPlace, BallState, POOL_RADIUS_M};
 use crate::events::{Racked, Racking};
-use crate::rack::{Rack, RackError};
+use crate::ids::BallId;
+use crate::rack::{CueBallGoes, Rack, RackError, next_rack};
 use crate::table::{Bed, Table};
+use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 /// How the balls of a game are racked, as often as its rules ask for it.
@@ -41,7 +43,7 @@ impl Racks {
     pub(super) fn lies(&self, racking: Racking, table: &Snapshot) -> Arc<[Lie]> {
         match racking.balls {
             Racked::All => self.all(racking.serial, table),
-            Racked::Fourteen => Arc::new([]),
+            Racked::Fourteen => self.fourteen(racking.serial, table),
         }
     }
 
@@ -57,4 +59,61 @@ impl Racks {
         };
         table.balls.iter().map(lie).collect()
     }
+
+    /// Straight pool goes on: see [`next_rack`].
+    fn fourteen(&self, serial: u32, table: &Snapshot) -> Arc<[Lie]> {
+        let Some(bed) = &self.bed else { return Arc::new([]) };
+        let lies = table.balls.iter().map(|ball| {
+            let is_there = ball.place == BallPlace::OnTable;
+            (ball.id, is_there, ball.position)
+        });
+        let (cue_ball, left) = lying(lies);
+        let rack = next_rack(bed, cue_ball, left, self.rack.seed(serial));
+        let put = |seen: &BallState, place: BallPlace, at: Option<DVec2>| {
+            let position = at.map_or(seen.position, |at| at.extend(self.radius_m(seen.id)));
+            Lie { place, position, ..Lie::from(seen) }
+        };
+        let lie = |seen: &BallState| match rack.balls.iter().find(|(ball, _)| *ball == seen.id) {
+            Some((_, at)) => Some(put(seen, BallPlace::OnTable, Some(*at))),
+            None if seen.id != BallId::CUE => Some(put(seen, BallPlace::InHand, None)),
+            None => match rack.cue_ball {
+                CueBallGoes::Nowhere => None,
+                CueBallGoes::To(at) => Some(put(seen, BallPlace::OnTable, Some(at))),
+                CueBallGoes::InHand => Some(put(seen, BallPlace::InHand, None)),
+            },
+        };
+        table.balls.iter().filter_map(lie).collect()
+    }
+
+    fn radius_m(&self, ball: BallId) -> f64 {
+        let apart = self.apart.iter().find(|(other, _)| other.id == ball);
+        apart.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m)
+    }
+}
+
+/// Where the cue ball lies, and the object ball that is left, of balls that are in play or not.
+fn lying(
+    balls: impl Iterator<Item = (BallId, bool, DVec3)>,
+) -> (Option<DVec2>, Option<(BallId, DVec2)>) {
+    let (mut cue_ball, mut left) = (None, None);
+    for (ball, _, position) in balls.filter(|(_, is_there, _)| *is_there) {
+        match ball {
+            BallId::CUE => cue_ball = Some(position.truncate()),
+            _ => left = left.or(Some((ball, position.truncate()))),
+        }
+    }
+    (cue_ball, left)
+}
+
+/// Whether the next rack of straight pool takes the cue ball up from where it lies: one object ball
+/// of fifteen is left, or none. In any other world it is not.
+pub(super) fn cue_in_rack(
+    bed: Option<&Bed>,
+    balls: impl ExactSizeIterator<Item = (BallId, bool, DVec3)> + Clone,
+) -> bool {
+    let is_full = balls.len() == 16 && balls.clone().map(|(ball, ..)| ball.0).eq(0..16);
+    let left = balls.clone().filter(|(ball, is_there, _)| *is_there && *ball != BallId::CUE);
+    let (Some(bed), true, true) = (bed, is_full, left.count() <= 1) else { return false };
+    let (cue_ball, left) = lying(balls);
+    cue_ball.is_some() && next_rack(bed, cue_ball, left, 0).cue_ball == CueBallGoes::InHand
 }

@@ -4,8 +4,8 @@ use super::event_driven::EventDriven;
 use super::fixed_step::{CELL_M, FixedStep};
 use super::shot::{Shot, Strike, Tracks};
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Racks, Snapshot, Solver, SolverKind,
-    Work,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Racks, Snapshot, Solver,
+    SolverKind, Work,
 };
 use crate::ball::{Ball, BallState, Motion};
 use crate::events::{Command, Fact, FactSet, Topic};

@@ -1,7 +1,8 @@
 //! The scoreboard: the state of a game as a window shows it, reduced from events.
 
 use crate::events::{
-    Call, CallKind, Command, Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
+    Call, CallKind, Command, Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics,
+    Turn, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use super::shot::Shot;
 use super::state::State;
-use crate::events::Foul;
+use crate::events::{ByPlayer, Foul};
 use smallvec::SmallVec;
 
 /// Whether a shot broke one rule.
@@ -14,6 +14,18 @@ pub fn committed(rules: &[(Foul, Rule)], state: &State, shot: &Shot) -> SmallVec
     let mut fouls: SmallVec<[Foul; 2]> = broken.map(|(foul, _)| *foul).collect();
     fouls.sort_unstable();
     fouls
+}
+
+/// Fouls in a row of each player after a shot: a shot without a foul sets the own count to 0. A
+/// third one counts only for who was told of two; without a warning it is the second again.
+pub fn in_a_row(state: &State, legal: bool) -> ByPlayer<u8> {
+    let own = match (legal, state.fouls.of(state.player)) {
+        (true, _) => 0,
+        (false, 2..) if !state.warned => 2,
+        (false, 2..) => 3,
+        (false, count) => count + 1,
+    };
+    state.fouls.with(state.player, own)
 }
 
 /// Foul: the cue ball is down.
@@ -35,7 +47,7 @@ pub fn no_contact(_: &State, shot: &Shot) -> bool {
 /// Foul: after the first contact no ball was pocketed, driven off the table or driven to a rail. A
 /// ball that already touched a rail is not driven to it. Without a contact that is the foul.
 pub fn no_rail(_: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty() && shot.rails_after_contact == 0 && shot.gone_after_contact == 0
+    !shot.first_contacts.is_empty() && !shot.is_driven_after_contact()
 }
 
 /// Foul: an object ball is off the table.
@@ -67,7 +79,7 @@ pub fn bad_placement(state: &State, shot: &Shot) -> bool {
 /// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
 /// behind it too, and the cue ball had not crossed it before.
 pub fn kitchen(state: &State, shot: &Shot) -> bool {
-    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first
+    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first()
 }
 
 /// Foul: a ball still moved, or spun, when the stroke began.

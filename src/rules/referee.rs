@@ -220,6 +220,7 @@ impl Referee {
         if let FactKind::BallPlaced { ball, ok: true, .. } = fact.kind
             && self.is_practice()
         {
+            watch(&mut self.shot, fact);
             return self.bring_back(ball);
         }
         match self.phase {
@@ -274,11 +275,10 @@ impl Referee {
 
     /// Training: a hand has put a ball down, wherever it was.
     fn bring_back(&mut self, ball: BallId) -> Sayings {
-        self.shot.bring_back(ball);
         let is_cue_ball = ball == self.state.cue_ball;
         if is_cue_ball {
             self.state.ball_in_hand = BallInHand::None;
-        } else {
+        } else if self.full_rack.contains(&ball) {
             self.state.bring_back(ball);
         }
         match self.phase {
@@ -302,7 +302,7 @@ impl Referee {
 
         let mut sayings = Sayings::new();
         sayings.push(Event::Verdict(verdict.clone()));
-        if !verdict.spot.is_empty() && verdict.options.is_empty() {
+        if !verdict.spotted_now().is_empty() {
             sayings.push(Event::Command(Command::SpotBalls(verdict.spot.clone())));
         }
         if let Some(balls) = verdict.rack {

@@ -168,6 +168,13 @@ impl State {
         }
     }
 
+    /// The same, now that the player at the table was told how many fouls in a row he has. A
+    /// program always tells.
+    #[must_use]
+    pub fn with_warning(self) -> Self {
+        State { warned: self.fouls.of(self.player) >= 2, ..self }
+    }
+
     /// Whether the cue ball may be put down in a zone.
     pub fn may_place_in(&self, zone: Zone) -> bool {
         match self.ball_in_hand {
@@ -192,12 +199,10 @@ impl State {
     }
 
     /// The state before the next shot, or before the choice that decides it: then it is the
-    /// chooser's turn, and what would be spotted is not yet.
+    /// chooser's turn.
     pub fn after(&self, shot: &Shot, verdict: &Verdict) -> State {
         let mut on_table = self.left_by(shot);
-        if verdict.options.is_empty() {
-            on_table.extend(verdict.spot.iter().copied());
-        }
+        on_table.extend(verdict.spotted_now().iter().copied());
         if verdict.rack == Some(Racked::Fourteen) {
             on_table.extend((1..=15).map(BallId));
         }

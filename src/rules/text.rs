@@ -4,7 +4,8 @@
 
 use super::ball_names::ball_name;
 use crate::events::{
-    BallInHand, BallOn, Call, CallKind, Group, Groups, ShotKind, Turn, TurnAfter, Verdict,
+    BallInHand, BallOn, Call, CallKind, Choice, Foul, Group, Groups, Racked, ShotKind, Turn,
+    TurnAfter, Verdict,
 };
 use crate::ids::{BallId, GameKind, PlayerId};
 use serde::Serialize;
@@ -84,6 +85,21 @@ impl Texts {
         if !verdict.spot.is_empty() {
             sentences.push(self.fill("verdict", "spot", "balls", &self.list(&verdict.spot)));
         }
+        for player in [PlayerId::ONE, PlayerId::TWO] {
+            let points = verdict.points.of(player);
+            if points != 0 {
+                let sentence = self.about("verdict", "points", player);
+                sentences.push(sentence.replace("{points}", &format!("{points:+}")));
+            }
+        }
+        sentences.extend(verdict.rack.map(|rack| match rack {
+            Racked::All => self.get("verdict", "rack_all"),
+            Racked::Fourteen => self.get("verdict", "rack_fourteen"),
+        }));
+        if let Some(chooser) = verdict.chooser {
+            sentences.push(self.about("verdict", "chooser", chooser));
+            return sentences.join(" ");
+        }
         sentences.push(match (verdict.turn, verdict.winner, verdict.next_player) {
             (TurnAfter::End, Some(winner), _) => self.about("verdict", "winner", winner),
             (TurnAfter::End, None, _) | (_, _, None) => self.get("verdict", "no_winner"),
@@ -99,6 +115,11 @@ impl Texts {
     /// What a turn says, for example "Player 1 to break. Ball in hand behind the head string for
     /// Player 1. The table is open."
     pub fn turn(&self, turn: &Turn) -> String {
+        if !turn.options.is_empty() {
+            let options: Vec<_> = turn.options.iter().map(|option| self.choice(*option)).collect();
+            let sentence = self.about("turn", "choose", turn.player);
+            return sentence.replace("{options}", &options.join(&self.get("turn", "or")));
+        }
         let mut sentences = vec![self.about("turn", &code(&turn.shot), turn.player)];
         if turn.ball_in_hand != BallInHand::None {
             sentences.push(self.about("in_hand", &code(&turn.ball_in_hand), turn.player));
@@ -116,6 +137,10 @@ impl Texts {
         };
         sentences.extend(plays.map(|key| self.about("turn", key, turn.player)));
         sentences.extend(self.ball_on(turn));
+        let hints = [(turn.calls.push_out, "may_push_out"), (turn.warned, "warned")];
+        for (_, key) in hints.iter().filter(|(holds, _)| *holds) {
+            sentences.push(self.about("turn", key, turn.player));
+        }
         sentences.join(" ")
     }
 
@@ -155,6 +180,11 @@ impl Texts {
         balls.iter().map(|ball| self.ball(*ball)).collect::<Vec<_>>().join(", ")
     }
 
+    /// What an option means, for a menu, for example "play the table as it is".
+    pub fn choice(&self, choice: Choice) -> String {
+        self.get("choice", &code(&choice))
+    }
+
     /// Why a verdict is as it is: one sentence per foul, then what became of turn and game.
     pub fn why(&self, verdict: &Verdict) -> Vec<String> {
         let mut keys: Vec<String> = verdict.fouls.iter().map(code).collect();
@@ -162,13 +192,13 @@ impl Texts {
             keys.push("no_foul".into());
         }
         let end = match (verdict.turn, verdict.winner) {
-            (TurnAfter::End, Some(winner)) if Some(winner) == verdict.player => Some("win"),
-            (TurnAfter::End, Some(_)) => Some("loss"),
+            (TurnAfter::End, Some(_)) => end_of_game(verdict),
             (TurnAfter::End, None) => Some("no_winner"),
-            (TurnAfter::Continue, _) => Some("continue"),
-            (TurnAfter::Pass, _) if verdict.legal => Some("pass"),
+            (TurnAfter::Pass, _) if verdict.options.contains(&Choice::PassBack) => Some("push_out"),
             // The foul has already said why.
-            (TurnAfter::Pass, _) => None,
+            (TurnAfter::Pass | TurnAfter::Continue, _) if !verdict.legal => None,
+            (TurnAfter::Continue, _) => Some("continue"),
+            (TurnAfter::Pass, _) => Some("pass"),
         };
         keys.extend(end.map(String::from));
         keys.iter().map(|key| self.get("why", key)).collect()
@@ -196,6 +226,18 @@ impl Texts {
 /// Why a verdict is as it is, in a language; see [`Texts::why`].
 pub fn explain(verdict: &Verdict, language: Language) -> Vec<String> {
     Texts::new(language).why(verdict)
+}
+
+/// What decided a game that somebody has won. Groups are of eight-ball, and what is left without
+/// points or a third foul is nine-ball.
+fn end_of_game(verdict: &Verdict) -> Option<&'static str> {
+    let has_won = verdict.winner == verdict.player;
+    match () {
+        () if verdict.groups.is_some() => Some(if has_won { "win" } else { "loss" }),
+        () if verdict.fouls.contains(&Foul::ThreeFouls) => None,
+        () if verdict.points.is_nothing() => Some("win_nine"),
+        () => Some("win_points"),
+    }
 }
 
 /// The code of a value in JSON, by which its sentence is found.
@@ -248,6 +290,35 @@ mod tests {
                     let text = texts.find(section, &code(&foul));
                     assert!(text.is_some_and(|text| text.len() > 10), "{language:?} {foul:?}");
                 }
+            }
+        }
+    }
+
+    /// All options. The match keeps the list complete, as that of the fouls.
+    fn all_choices() -> Vec<Choice> {
+        let next = |choice: Choice| match choice {
+            Choice::Accept => Some(Choice::CueInHandKitchen),
+            Choice::CueInHandKitchen => Some(Choice::RerackAndBreak),
+            Choice::RerackAndBreak => Some(Choice::RerackOpponentBreaks),
+            Choice::RerackOpponentBreaks => Some(Choice::Respot8Continue),
+            Choice::Respot8Continue => Some(Choice::Respot8CueInHandKitchen),
+            Choice::Respot8CueInHandKitchen => Some(Choice::Rebreak),
+            Choice::Rebreak => Some(Choice::Shoot),
+            Choice::Shoot => Some(Choice::PassBack),
+            Choice::PassBack => Some(Choice::AskAgain),
+            Choice::AskAgain => Some(Choice::Play),
+            Choice::Play => None,
+        };
+        std::iter::successors(Some(Choice::Accept), |choice| next(*choice)).collect()
+    }
+
+    #[test]
+    fn every_option_has_its_words_in_both_languages() {
+        assert_eq!(all_choices().len(), 11);
+        for language in Language::ALL {
+            let texts = Texts::new(language);
+            for choice in all_choices() {
+                assert!(!texts.choice(choice).starts_with("choice."), "{language:?} {choice:?}");
             }
         }
     }

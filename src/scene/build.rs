@@ -2,8 +2,8 @@
 
 use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
-use crate::ids::GameKind;
 use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ids::GameKind;
 use crate::mesh::{Face, Mesh, parse_obj};
 use crate::physics::{Parameters, Racks};
 use crate::rack::Rack;

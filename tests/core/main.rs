@@ -42,5 +42,7 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// Training: shots taken back, balls put anywhere.
+mod training;
 /// Cases with known answers, and catalogues of others.
 mod validation;

@@ -3,7 +3,9 @@
 use glam::DVec2;
 use hapticbillard::ball::{Ball, BallState, POOL_RADIUS_M};
 use hapticbillard::ids::BallId;
-use hapticbillard::rack::{JITTER_MAX_M, Rack, RackError, overlaps, spot_position};
+use hapticbillard::rack::{
+    CueBallGoes, JITTER_MAX_M, NextRack, Rack, RackError, next_rack, overlaps, spot_position,
+};
 use hapticbillard::table::{Bed, Table};
 
 fn bed_only() -> Table {
@@ -131,4 +133,102 @@ fn spotted_ball_goes_behind_and_then_before_the_spot() {
         (0..12).map(|i| foot + DVec2::new(2.0 * r * f64::from(i), 0.0)).collect();
     let before = spot(&full);
     assert!((before.x - foot.x + 2.0 * r).abs() < 2e-6, "{before}");
+}
+
+/// Every row of the table in WPA rule 4.8, by columns: the cue ball in the rack, elsewhere, and on
+/// the head spot.
+#[test]
+fn whoever_is_in_the_way_of_the_next_rack_goes_where_the_rules_say() {
+    let bed = Bed { length_m: 2.54, width_m: 1.27 };
+    let r = POOL_RADIUS_M;
+    let in_rack = bed.foot_spot() + DVec2::new(3.0 * r, 0.5 * r);
+    // Over the outline by a hair, and beside it by a hair.
+    let on_edge = bed.foot_spot() - DVec2::new(3.0 * r - 1e-4, 0.0);
+    let beside = bed.foot_spot() - DVec2::new(3.0 * r + 1e-4, 0.0);
+    let on_head = bed.head_spot() + DVec2::new(-r, 1.5 * r);
+    let kitchen = bed.head_spot() + DVec2::new(-0.1, 0.3);
+    let on_string = DVec2::new(bed.head_string_x(), 0.3);
+    let foot_side = bed.head_spot() + DVec2::new(0.4, 0.2);
+
+    let check = |cue: DVec2, left: Option<DVec2>, cue_goes: CueBallGoes, left_at: Option<DVec2>| {
+        let ball = BallId(5);
+        let rack = next_rack(&bed, Some(cue), left.map(|place| (ball, place)), 3);
+        assert_eq!(rack.cue_ball, cue_goes, "{cue} {left:?}");
+        let (_, place) = rack.balls.iter().find(|(id, _)| *id == ball).unwrap();
+        match (left, left_at) {
+            (Some(_), None) => assert!(place.distance(bed.foot_spot()) < 2e-5, "apex: {place}"),
+            (_, Some(at)) => assert_eq!(*place, at, "{cue} {left:?}"),
+            (None, None) => {}
+        }
+    };
+    use CueBallGoes::{InHand, Nowhere, To};
+    let (head, middle) = (bed.head_spot(), DVec2::ZERO);
+
+    for blocking in [in_rack, on_edge] {
+        check(blocking, Some(in_rack + DVec2::new(0.0, 2.1 * r)), InHand, None);
+        check(blocking, None, InHand, None);
+        check(blocking, Some(kitchen), To(head), Some(kitchen));
+        check(blocking, Some(on_head), To(middle), Some(on_head));
+        check(blocking, Some(on_string), InHand, Some(on_string));
+        check(blocking, Some(foot_side), InHand, Some(foot_side));
+        check(blocking, Some(beside - DVec2::new(r, 0.0)), InHand, Some(beside - DVec2::X * r));
+
+        check(kitchen, Some(blocking), Nowhere, Some(head));
+        check(on_head, Some(blocking), Nowhere, Some(middle));
+    }
+    for cue in [kitchen, on_head, foot_side, beside] {
+        check(cue, None, Nowhere, None);
+    }
+    for (cue, left) in [(kitchen, on_head), (on_head, beside), (beside, kitchen)] {
+        check(cue, Some(left), Nowhere, Some(left));
+    }
+}
+
+#[test]
+fn the_next_rack_has_all_balls_once_and_none_overlaps() {
+    let table = bed_only();
+    let bed = table.bed.unwrap();
+    let r = POOL_RADIUS_M;
+    // A grid of places for both balls, fine around the rack.
+    let places = |step: f64, from: DVec2, to: DVec2| {
+        let count = ((to - from) / step).floor();
+        (0..=count.x as usize * count.y as usize).map(move |i| {
+            let across = count.y as usize;
+            from + DVec2::new((i / across) as f64, (i % across) as f64) * step
+        })
+    };
+    let corner = bed.foot_spot() + DVec2::new(0.2, 0.25);
+    let coarse = || places(0.11, DVec2::new(-1.2, -0.6), DVec2::new(1.2, 0.6));
+    let fine = || places(0.013, DVec2::new(0.5, 0.0), corner);
+    let pairs = fine()
+        .flat_map(|cue| coarse().step_by(7).map(move |left| (cue, left)))
+        .chain(coarse().step_by(7).flat_map(|cue| fine().map(move |left| (cue, left))))
+        .filter(|(cue, left)| cue.distance(*left) >= 2.0 * r);
+    let mut racks = 0;
+    for (i, (cue, left)) in pairs.enumerate() {
+        let ball = BallId(1 + i as u16 % 15);
+        let NextRack { balls, cue_ball } = next_rack(&bed, Some(cue), Some((ball, left)), i as u64);
+        assert!(balls.iter().map(|(id, _)| id.0).eq(1..=15));
+        let mut standing: Vec<(Ball, BallState)> = balls
+            .iter()
+            .map(|(id, place)| (Ball::pool(*id), BallState::at_rest(*id, place.extend(r))))
+            .collect();
+        let cue_at = match cue_ball {
+            CueBallGoes::Nowhere => Some(cue),
+            CueBallGoes::To(place) => Some(place),
+            CueBallGoes::InHand => None,
+        };
+        let pool = |place: DVec2| BallState::at_rest(BallId::CUE, place.extend(r));
+        standing.extend(cue_at.map(|place| (Ball::pool(BallId::CUE), pool(place))));
+        assert_eq!(overlaps(&standing), None, "cue ball {cue}, {ball} at {left}");
+        racks += 1;
+    }
+    assert!(racks > 5_000, "{racks}");
+
+    let rack = |seed| next_rack(&bed, None, Some((BallId(4), DVec2::new(0.0, 0.3))), seed);
+    assert_eq!(rack(1), rack(1));
+    assert_ne!(rack(1), rack(2));
+    assert_eq!(rack(1).cue_ball, CueBallGoes::InHand, "a cue ball that is gone");
+    let free = |seed| !rack(seed).balls.iter().any(|(_, p)| p.distance(bed.foot_spot()) < r);
+    assert!((0..20).all(free), "the apex stays free");
 }

@@ -1,6 +1,6 @@
 //! Every way to get a scene wrong, and the exact line that says so.
 
-use hapticbillard::ids::BallId;
+use hapticbillard::ids::{BallId, GameKind};
 use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
 
 /// The smallest scene: what most of the wrong ones begin with.
@@ -361,10 +361,31 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
          example rack = \"eight-ball\"",
     );
     after_head(
-        "[rules]\ngame = \"wpa-nine-ball\"\n",
-        "5: rules.game = \"wpa-nine-ball\": this build knows \"paper-eight-ball\", \
-         \"free-play\"; write for example game = \"paper-eight-ball\"",
+        "[rules]\ngame = \"bridge\"\n",
+        &format!(
+            "5: rules.game = \"bridge\": this build knows {}; write for example game = \
+             \"paper-eight-ball\"",
+            GameKind::ALL.map(|game| format!("{:?}", game.id())).join(", ")
+        ),
     );
+    for (game, rack) in [("wpa-nine-ball", "nine-ball"), ("straight", "eight-ball")] {
+        let other = if rack == "nine-ball" { "eight-ball" } else { "nine-ball" };
+        let two = "[[player]]\nname = \"A\"\nkind = \"paper\"\n[[player]]\nname = \"B\"\nkind = \
+                   \"paper\"\n";
+        let with = |rack: &str, players: &str| {
+            format!(
+                "[table]\npreset = \"pool-9ft\"\n[cue]\n[rules]\ngame = {game:?}\n[balls]\nrack = \
+                 {rack:?}\n{players}"
+            )
+        };
+        let wrong = format!(
+            "8: rules.game = {game:?}: {game} begins with its rack; write [balls] and rack = {rack:?}"
+        );
+        after_head(&with(other, two), &wrong);
+        let wrong =
+            format!("8: rules.game = {game:?}: {game} has two players; write a second [[player]]");
+        after_head(&with(rack, &two[..37]), &wrong);
+    }
     after_head(
         "[rules]\ngame = \"free-play\"\n",
         "5: rules.game = \"free-play\": rules need players; write [[player]] and kind = \"paper\"",

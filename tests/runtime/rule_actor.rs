@@ -127,7 +127,7 @@ async fn a_full_mailbox_refuses_and_the_actor_lives_on() {
         let events = [Stamped { stamp, event }].into();
         Mail(Delivered { tick: Tick(1), events, table: Default::default() })
     };
-    let settled = || fact(FactKind::Settled { snookered: false });
+    let settled = || fact(FactKind::Settled { snookered: false, cue_in_rack: false });
     // On one thread the actor does not run before somebody waits for it.
     let taken = [(pair.ask)(settled()), (pair.ask)(settled())];
     let refused = (pair.ask)(settled()).answer().await;

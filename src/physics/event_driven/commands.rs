@@ -1,8 +1,8 @@
 //! Commands: what a player or the rules want done.
 
-use super::{EventDriven, Lie, Order};
 use super::segment::Segment;
 use super::tip::Tip;
+use super::{EventDriven, Lie, Order};
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};

@@ -1,8 +1,8 @@
 //! Commands: what a player or the rules want done.
 
+use super::body::Body;
 use super::cue_motion::CueMotion;
 use super::{Due, FixedStep, Lie, Order, collect, weight_j};
-use super::body::Body;
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};

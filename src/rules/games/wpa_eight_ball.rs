@@ -175,7 +175,8 @@ fn judge_colours(state: &State, call: Option<&Call>, shot: &Shot, verdict: Verdi
     if is_stalemate(state, shot) {
         let (next_player, rack) = (Some(state.breaker), Some(Racked::All));
         let (groups, ball_in_hand) = (Some(Groups::Open), BallInHand::Kitchen);
-        return Verdict { next_player, rack, groups, ball_in_hand, ..verdict };
+        let turn = TurnAfter::before(own, state.breaker);
+        return Verdict { turn, next_player, rack, groups, ball_in_hand, ..verdict };
     }
     Verdict { next_player: Some(other), ..verdict }
 }

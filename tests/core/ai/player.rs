@@ -225,7 +225,7 @@ fn a_turn_goes_through_its_states_in_order() {
     assert!((400..=1200).contains(&lazed), "{lazed} ticks of pause");
     assert_eq!(script.states[2].1.0 - script.states[1].1.0, 800, "ticks of aiming");
     assert!(!script.cue.as_ref().unwrap().solid, "the cue is withdrawn at once");
-    script.fact(FactKind::Settled { snookered: false });
+    script.fact(FactKind::Settled { snookered: false, cue_in_rack: false });
     script.run_to(Idle);
     assert_eq!(script.names(), [Lazing, Aiming, Shooting, Analyzing, Done, Idle]);
     assert_eq!((script.strokes.len(), script.cue_lifted), (1, 1));
