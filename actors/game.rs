@@ -8,6 +8,7 @@ use crate::pacer::StopFlag;
 use crate::runtime::{self, InputPort};
 use crate::stopwatch::{Stopwatch, Timed};
 use hapticbillard::cast::Cast;
+use hapticbillard::ids::GameKind;
 use hapticbillard::lockstep;
 use hapticbillard::physics::Simulation;
 use hapticbillard::replay::{self, Header, Line, RecordedInput, Recording};
@@ -78,6 +79,21 @@ impl Stage {
         })?;
         header.overrides.apply(&mut scene);
         Ok(Stage { scene, table: Arc::new(table), header })
+    }
+
+    /// The same for another game, if one is given.
+    ///
+    /// # Errors
+    /// The scene has not what that game needs.
+    pub fn for_game(self, game: Option<GameKind>) -> Result<Self, Error> {
+        let Some(game) = game else { return Ok(self) };
+        let stage = self.with(Overrides { game: Some(game), ..Overrides::default() });
+        let what = format!("--game {game}");
+        match (stage.scene.rules, stage.scene.misfit(game)) {
+            (None, _) => Err(Error::input(what, "the scene has no rules", "choose another scene")),
+            (_, Some((problem, fix))) => Err(Error::input(what, problem, fix)),
+            (Some(_), None) => Ok(stage),
+        }
     }
 
     /// The same with changes.

@@ -19,6 +19,9 @@ pub use plan::{
 
 mod fallback;
 
+mod choose;
+pub use choose::{Outlook, call, choose};
+
 mod place;
 pub use place::{placements, zone_holds};
 

@@ -8,7 +8,7 @@ use crate::ball::POOL_RADIUS_M;
 use crate::ids::{BallId, PlayerId};
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
-use crate::rules::Referee;
+use crate::rules::{Referee, UNDO_SHOTS, game};
 use crate::scene::{PlayerKind, Scene, SceneError};
 use crate::table::Table;
 use std::sync::Arc;
@@ -67,11 +67,19 @@ impl Cast {
         let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
         let parameters = scene.parameters();
         let tip_radius_m = parameters.tip_radius_m;
-        let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?;
+        let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?
+            .with_racks(scene.racks(&table));
+        let is_practice = scene.rules.is_some_and(|rules| game(rules.game).is_practice);
+        let simulation = match (is_practice, scene.rules) {
+            (_, None) => simulation,
+            (true, Some(_)) => simulation.with_memory(UNDO_SHOTS),
+            (false, Some(_)) => simulation.with_object_balls_left_alone(),
+        };
         let referee = scene
             .rules
             .as_ref()
-            .map(|rules| Referee::new(rules.game).first_player(rules.first_player));
+            .map(|rules| Referee::new(rules.game).first_player(rules.first_player))
+            .map(|referee| if scene.players.len() == 1 { referee.alone() } else { referee });
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
             if section.kind != PlayerKind::Paper {
@@ -95,6 +103,7 @@ impl Cast {
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)
         });
+        let human = human.map(|human| if is_practice { human.for_practice() } else { human });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })
     }

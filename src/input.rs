@@ -20,6 +20,9 @@ mod sight;
 
 mod placing;
 
+mod calling;
+pub use calling::CallView;
+
 mod tip;
 
 mod human;

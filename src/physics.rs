@@ -10,6 +10,8 @@ mod settings;
 mod setup;
 mod snapshot;
 
+mod racks;
+
 mod parameters;
 mod profiles;
 
@@ -22,6 +24,7 @@ pub mod roots;
 pub mod spring;
 
 mod ledger;
+mod lies;
 mod work;
 
 mod solver;
@@ -40,8 +43,10 @@ pub use error::PhysicsError;
 pub use laws::choice::{BallLaw, CushionLaw, MultiContact};
 pub use laws::cue_ball::cue_contact;
 pub use ledger::{Ledger, Momentum};
+pub use lies::{Lie, Memory, Order};
 pub use parameters::{Contact, Parameters};
 pub use profiles::Equipment;
+pub use racks::Racks;
 pub use settings::{ExactTolerances, Integrator, PhysicsSettings, Profile, SolverKind};
 pub use setup::{Setup, SetupError};
 pub use shot::{Shot, Strike, Trajectory};

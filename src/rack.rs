@@ -62,6 +62,32 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
+    /// The rack that is set up in the same way for the `serial`-th time, counted from 0: each
+    /// stands a little otherwise. Balls that were listed lie as they were listed.
+    pub fn again(&self, serial: u32) -> Rack {
+        let seed = self.seed(serial);
+        let layout = match &self.layout {
+            Layout::EightBall { .. } => Layout::EightBall { seed },
+            Layout::NineBall { .. } => Layout::NineBall { seed },
+            Layout::Balls(balls) => Layout::Balls(balls.clone()),
+        };
+        Rack { layout }
+    }
+
+    /// What is left to chance when balls are racked for the `serial`-th time.
+    pub fn seed(&self, serial: u32) -> u64 {
+        let first = match &self.layout {
+            Layout::EightBall { seed } | Layout::NineBall { seed } => *seed,
+            Layout::Balls(_) => 0,
+        };
+        if serial == 0 {
+            return first;
+        }
+        let mut random = Pcg64Mcg::seed_from_u64(first);
+        random.advance(u128::from(serial));
+        random.next_u64()
+    }
+
     /// These balls, just as they are.
     pub fn from_balls(balls: Vec<(Ball, BallState)>) -> Rack {
         Rack { layout: Layout::Balls(balls) }

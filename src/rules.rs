@@ -27,7 +27,7 @@ pub use console::{Console, ConsoleAnswer, ConsoleError};
 pub use game::{Chosen, Game, Judge};
 pub use games::game;
 pub use phase::{Phase, Signal, diagram};
-pub use referee::Referee;
+pub use referee::{Referee, UNDO_SHOTS};
 pub use scenario::{
     Difference, Scenario, ScenarioError, ScenarioResult, ScenarioStatus, read_scenarios,
     run_scenario,

@@ -148,6 +148,14 @@ impl RackKind {
         (0..=last).map(BallId)
     }
 
+    /// All racks.
+    pub const ALL: [RackKind; 2] = [RackKind::EightBall, RackKind::NineBall];
+
+    /// The rack with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|rack| rack.name() == name)
+    }
+
     /// Its name in a scene.
     pub fn name(self) -> &'static str {
         match self {

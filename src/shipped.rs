@@ -7,6 +7,10 @@ pub const TABLES: &[(&str, &str)] = &[("pool-9ft", include_str!("../config/table
 pub const SCENES: &[(&str, &str)] = &[
     ("eight_ball", include_str!("../config/scenes/eight_ball.toml")),
     ("eight_ball_headless", include_str!("../config/scenes/eight_ball_headless.toml")),
+    ("wpa_eight_ball", include_str!("../config/scenes/wpa_eight_ball.toml")),
+    ("nine_ball", include_str!("../config/scenes/nine_ball.toml")),
+    ("straight", include_str!("../config/scenes/straight.toml")),
+    ("training", include_str!("../config/scenes/training.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),

@@ -5,8 +5,9 @@ use super::{Driver, Status, json_line, not_negative, progress};
 use clap::Args;
 use hapticbillard::cast::seed_of;
 use hapticbillard::hash::Digest;
-use hapticbillard::ids::PlayerId;
+use hapticbillard::ids::{GameKind, PlayerId};
 use hapticbillard::replay::TickHash;
+use hapticbillard::rules;
 use hapticbillard::scene::{Overrides, PlayerKind};
 use hapticbillard::tally::Tally;
 use hapticbillard::tick::Finished;
@@ -29,6 +30,7 @@ as it goes.
 
 Examples:
   hapticbillard match --games 100 --seed 1
+  hapticbillard match --game wpa-eight-ball --games 20 --seed 1
   hapticbillard match --games 10 --players paper,paper --noise 0.5 --json
   hapticbillard match --games 3 --record games/";
 
@@ -44,6 +46,10 @@ pub struct MatchArgs {
     #[arg(long, value_name = "N", default_value = "1",
           value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub games: u32,
+
+    /// What is played, with its rack, in place of the scene's game; `rules --help` lists all.
+    #[arg(long, value_name = "GAME")]
+    pub game: Option<GameKind>,
 
     /// Fixes everything random, in place of the scene's seed.
     #[arg(long, value_name = "K")]
@@ -123,12 +129,18 @@ struct Summary {
 /// Plays the games.
 pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let loaded = load_scene(&args.scene)?;
-    let stage = Stage::new(&loaded, &args.scene)?;
+    let stage = Stage::new(&loaded, &args.scene)?.for_game(args.game)?;
     let scene = &stage.scene;
     let what = format!("--scene {}", args.scene);
     if scene.rules.is_none() || scene.players.len() != 2 {
         let fix = "choose a scene with [rules] and two [[player]], such as eight_ball_headless";
         return Err(Error::input(what, "a match needs rules and two players", fix));
+    }
+    if let Some(rules) = scene.rules
+        && rules::game(rules.game).is_practice
+    {
+        let what = format!("{what} --game {}", rules.game);
+        return Err(Error::input(what, "this game never ends", "play it in a window with `play`"));
     }
     let kinds = match args.players.len() {
         0 => scene.players.iter().map(|player| player.kind).collect(),
@@ -148,6 +160,7 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let names: Vec<String> = scene.players.iter().map(|player| player.name.clone()).collect();
     let play = |game: u32| -> Result<(Finished, Tally, Took), Error> {
         let overrides = Overrides {
+            game: args.game,
             seed: Some(seed_of(seed, u64::from(game))),
             // They break in turn.
             first_player: Some(PlayerId(1 + (game % 2) as u8)),

@@ -7,6 +7,7 @@ use super::{Driver, Status, positive};
 use clap::Args;
 use hapticbillard::events::{Event, Source, Topic, Topics};
 use hapticbillard::hash::StateHash;
+use hapticbillard::ids::GameKind;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::scene::Overrides;
@@ -26,7 +27,8 @@ recorded in the user's data folder, where the last 20 are kept.
 
 Examples:
   hapticbillard                              the same as: hapticbillard play --scene eight_ball
-  hapticbillard play --scene free_play
+  hapticbillard play --scene training
+  hapticbillard play --game wpa-eight-ball
   hapticbillard play --seed 3 --record game.jsonl";
 
 /// Plays a game in a window.
@@ -36,6 +38,10 @@ pub struct PlayArgs {
     /// A shipped scene (see `scenes`) or a scene file.
     #[arg(long, value_name = "SCENE", default_value = "eight_ball")]
     pub scene: String,
+
+    /// What is played, with its rack, in place of the scene's game; `rules --help` lists all.
+    #[arg(long, value_name = "GAME")]
+    pub game: Option<GameKind>,
 
     /// Fixes everything random, in place of the scene's seed.
     #[arg(long, value_name = "N")]
@@ -81,8 +87,8 @@ pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
 }
 
 fn stage(args: &PlayArgs, scene: &str) -> Result<Stage, Error> {
-    let stage = Stage::new(&load_scene(scene)?, scene)?;
-    Ok(stage.with(Overrides { seed: args.seed, ..Overrides::default() }))
+    let stage = Stage::new(&load_scene(scene)?, scene)?.for_game(args.game)?;
+    Ok(stage.with(Overrides { game: args.game, seed: args.seed, ..Overrides::default() }))
 }
 
 /// Where a game is recorded: where the player says, or into the data folder.

@@ -19,9 +19,19 @@ const LINE_BYTES_MAX: u64 = (1 << 20) + 2;
 
 const EXAMPLE: &str = "\
 Reads facts, one JSON object a line, as `simulate --json` prints them or typed by hand; other lines
-of `simulate` are passed over. A line {\"state\":{..}} goes on from another state.
+of `simulate` are passed over. Besides facts a line may be
+
+  {\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}   what is announced before a shot; also \"safety\",
+                                         \"push_out\", or \"nothing\" to take it back
+  {\"choose\":\"accept\"}                  one of the options that a verdict leaves to a player
+  {\"undo\":true}                        training: the last shot was none
+  {\"state\":{\"player\":2,..}}            goes on from another state
 
 Examples:
+  (echo '{\"state\":{\"on_table\":[\"3\",\"8\"]}}'; echo '{\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}'
+   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}'; echo '{\"t\":1,\"e\":\"hit\",\"a\":\"0\",\"b\":\"3\"}'
+   echo '{\"t\":2,\"e\":\"pocket\",\"ball\":\"3\",\"pocket\":\"FL\"}'; echo '{\"t\":3,\"e\":\"settle\"}') |
+    hapticbillard rules --game wpa8 --why
   hapticbillard rules --game paper8 --why facts.jsonl
   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}' | hapticbillard rules
   hapticbillard simulate --scene break_shot --json | hapticbillard rules --game free_play
@@ -36,9 +46,7 @@ pub struct RulesArgs {
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
 
-    /// The game: paper-eight-ball (paper8) or free-play (free_play) [default: paper-eight-ball].
-    /// With --scenarios: only that game's.
-    #[arg(long, value_name = "GAME")]
+    #[arg(long, value_name = "GAME", help = game_help())]
     pub game: Option<GameKind>,
 
     /// Says why a verdict is as it is.
@@ -58,6 +66,15 @@ pub struct RulesArgs {
     pub json: bool,
 }
 
+/// What is said of `--game`: all games there are.
+fn game_help() -> String {
+    let games = GameKind::ALL.map(|game| format!("{} ({})", game.id(), game.short_id()));
+    format!(
+        "The game: {} [default: paper-eight-ball]. With --scenarios: only that game's",
+        games.join(", ")
+    )
+}
+
 /// Judges.
 pub fn run(args: &RulesArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let game = args.game.unwrap_or(GameKind::PaperEightBall);
@@ -70,7 +87,7 @@ pub fn run(args: &RulesArgs, out: &mut dyn Write) -> Result<Status, Error> {
     }
     let mut session = Session {
         console: Console::new(game),
-        texts: Texts::new(Language::English),
+        texts: Texts::new(Language::English).for_game(game),
         args,
         verdicts: 0,
         fouls: 0,
@@ -153,7 +170,13 @@ impl Session<'_> {
         }
         let Some(verdict) = &answer.verdict else {
             let phase = answer.phase;
-            return Ok(writeln!(out, "{phase:?}")?);
+            let call = answer.call.as_ref().map(|call| self.texts.call(call));
+            let turn = answer.turn.as_ref().map(|turn| self.texts.turn(turn));
+            let said: Vec<String> = call.into_iter().chain(turn).collect();
+            return Ok(match said.is_empty() {
+                true => writeln!(out, "{phase:?}")?,
+                false => writeln!(out, "{phase:?}: {}", said.join(" "))?,
+            });
         };
         writeln!(out, "{:?}: {}", answer.phase, self.texts.verdict(verdict))?;
         if self.args.why {

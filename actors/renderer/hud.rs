@@ -15,12 +15,13 @@ const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
 /// Draws the display over a window of the painter's size.
 pub fn paint(painter: &Painter, hud: &Hud) {
     let screen = painter.clip_rect();
-    // Everything grows with the window; readable at 1280 x 720 and below.
-    let unit = (screen.height() / 720.0).clamp(0.6, 3.0);
+    let unit = unit_of(screen);
     let pen = Pen { painter, screen, unit };
     pen.seats(&hud.seats);
     pen.message(hud);
     pen.hint(hud);
+    pen.call(hud.call.as_deref());
+    pen.options(&hud.options);
     if let Some(tip) = &hud.tip {
         pen.tip(tip, hud.elevation.as_deref());
     }
@@ -32,6 +33,25 @@ pub fn paint(painter: &Painter, hud: &Hud) {
     } else if let Some((title, hint)) = &hud.banner {
         pen.banner(title, hint);
     }
+}
+
+/// Where the lines of options stand in a window of this size: all of one height, in the middle.
+fn option_lines(screen: Rect, count: usize) -> impl Iterator<Item = Rect> {
+    let unit = unit_of(screen);
+    let size = vec2(620.0, 34.0) * unit;
+    let top = screen.center() - vec2(0.5 * size.x, 0.5 * size.y * count as f32);
+    (0..count).map(move |i| Rect::from_min_size(top + vec2(0.0, size.y * i as f32), size))
+}
+
+/// The option whose line is at this place of a window [pixels], counted from 0.
+pub fn option_at(hud: &Hud, (width, height): (f32, f32), (x, y): (f32, f32)) -> Option<usize> {
+    let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, height));
+    option_lines(screen, hud.options.len()).position(|line| line.contains(pos2(x, y)))
+}
+
+/// Everything grows with the window; readable at 1280 x 720 and below.
+fn unit_of(screen: Rect) -> f32 {
+    (screen.height() / 720.0).clamp(0.6, 3.0)
 }
 
 struct Pen<'a> {
@@ -72,7 +92,11 @@ impl Pen<'_> {
             let inner = rect.shrink2(vec2(12.0, 9.0) * self.unit);
             let colour = if seat.is_at_table { ACTIVE } else { TEXT };
             self.text(inner.left_top(), Align2::LEFT_TOP, &seat.name, 20.0, colour);
-            self.text(inner.right_top(), Align2::RIGHT_TOP, &seat.plays, 16.0, FAINT);
+            let plays = match seat.score {
+                Some(score) => score.to_string(),
+                None => seat.plays.clone(),
+            };
+            self.text(inner.right_top(), Align2::RIGHT_TOP, &plays, 16.0, FAINT);
             if let Remaining::Balls(balls) = &seat.remaining {
                 let radius = 11.5 * self.unit;
                 for (i, ball) in balls.iter().enumerate() {
@@ -156,6 +180,23 @@ impl Pen<'_> {
         if !hud.help_hint.is_empty() {
             let at = self.screen.left_bottom() + vec2(margin, -margin);
             self.text(at, Align2::LEFT_BOTTOM, &hud.help_hint, 14.0, FAINT);
+        }
+    }
+
+    /// What is announced, above the hint.
+    fn call(&self, call: Option<&str>) {
+        if let Some(call) = call {
+            let bottom = self.screen.center_bottom() - vec2(0.0, 92.0 * self.unit);
+            let line = (call.to_string(), 15.5, ACTIVE);
+            self.paragraph(bottom, self.screen.width() * 0.6, &[line]);
+        }
+    }
+
+    fn options(&self, options: &[String]) {
+        for (text, line) in options.iter().zip(option_lines(self.screen, options.len())) {
+            self.panel(line.shrink(2.0 * self.unit));
+            let at = line.left_center() + vec2(16.0 * self.unit, 0.0);
+            self.text(at, Align2::LEFT_CENTER, text, 17.0, TEXT);
         }
     }
 

@@ -34,6 +34,11 @@ impl Pointer {
         self.held != Held::Free
     }
 
+    /// Where it is in the window [pixels], while it is free.
+    pub fn place(&self) -> Option<(f64, f64)> {
+        self.last.filter(|_| !self.is_caught()).map(|place| (place.x, place.y))
+    }
+
     /// Catches it; what a system cannot do it goes without.
     pub fn catch(&mut self, window: &Window) {
         self.held = if window.set_cursor_grab(CursorGrabMode::Locked).is_ok() {
@@ -51,7 +56,7 @@ impl Pointer {
         // It is free already where it could not be caught.
         let _ = window.set_cursor_grab(CursorGrabMode::None);
         window.set_cursor_visible(true);
-        *self = Pointer::new();
+        *self = Pointer { last: self.last, ..Pointer::new() };
     }
 
     /// The device moved by so many of its counts: a movement to the right and down, if those are

@@ -7,6 +7,7 @@ use super::stage::{BACKGROUND, Stage};
 use crate::conductor::RunError;
 use crate::event_manager::Sink;
 use crate::pacer::StopFlag;
+use hapticbillard::ids::GameKind;
 use hapticbillard::input::{Button, HumanMode, HumanView, Key, RawInput};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{DrawList, Hud, Playhead, Radii, Scoreboard, Words};
@@ -58,6 +59,8 @@ pub struct WindowSetup {
     pub first: Arc<Snapshot>,
     /// Names of player 1 and player 2.
     pub names: Vec<String>,
+    /// What is played, if anything.
+    pub game: Option<GameKind>,
     /// Seconds of the game per second.
     pub speed: f64,
     /// The language of everything written.
@@ -119,6 +122,10 @@ where
         [one, two] => texts.with_names(one, two),
         [one] => texts.with_names(one, ""),
         _ => texts,
+    };
+    let texts = match setup.game {
+        Some(game) => texts.for_game(game),
+        None => texts,
     };
     let screen = Screen {
         outbox: Outbox::new(raw_in),
@@ -301,7 +308,12 @@ impl Desk {
                     MouseButton::Other(_) => return,
                 };
                 let down = state == ElementState::Pressed;
-                self.screen.outbox.say(RawInput::Button { button, down });
+                let picked =
+                    if (button, down) == (Button::Left, true) { self.picked() } else { None };
+                self.screen.outbox.say(match picked {
+                    Some(option) => RawInput::Picked { option },
+                    None => RawInput::Button { button, down },
+                });
             }
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
@@ -338,6 +350,14 @@ impl Desk {
         self.screen.outbox.say(RawInput::Key { key, down });
     }
 
+    /// The line of the options under a free pointer.
+    fn picked(&self) -> Option<usize> {
+        let (x, y) = self.pointer.place()?;
+        let (_, hud) = self.shown.as_ref()?;
+        let size = self.window.inner_size();
+        hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
+    }
+
     /// The mouse moved to the right and down [pixels].
     fn moved(&mut self, (right, down): (f64, f64)) {
         let height = f64::from(self.window.inner_size().height.max(1));
@@ -360,8 +380,10 @@ impl Desk {
     fn draw(&mut self) {
         self.take_news();
         let view = self.screen.view.read().clone();
-        // While time stands still or the game is over the pointer belongs to the player's desk.
-        let is_playing = self.is_focused && !self.is_over && view.mode != HumanMode::Paused;
+        // While time stands still, something is to be chosen or the game is over, the pointer
+        // belongs to the player's desk.
+        let is_free = matches!(view.mode, HumanMode::Paused | HumanMode::Choosing);
+        let is_playing = self.is_focused && !self.is_over && !is_free;
         if is_playing && !self.pointer.is_caught() {
             self.pointer.catch(&self.window);
         } else if !is_playing && self.pointer.is_caught() {
@@ -422,11 +444,19 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::PageUp => Key::PageUp,
         Code::PageDown => Key::PageDown,
         Code::F1 => Key::Help,
+        Code::Key1 | Code::Numpad1 => Key::Letter('1'),
+        Code::Key2 | Code::Numpad2 => Key::Letter('2'),
+        Code::Key3 | Code::Numpad3 => Key::Letter('3'),
+        Code::B => Key::Letter('b'),
         Code::C => Key::Letter('c'),
         Code::F => Key::Letter('f'),
+        Code::O => Key::Letter('o'),
         Code::P => Key::Letter('p'),
         Code::Q => Key::Letter('q'),
         Code::R => Key::Letter('r'),
+        Code::S => Key::Letter('s'),
+        Code::T => Key::Letter('t'),
+        Code::U => Key::Letter('u'),
         Code::V => Key::Letter('v'),
         _ => return None,
     })

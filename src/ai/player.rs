@@ -4,14 +4,15 @@
 //! It acts by commands alone and waits for nothing without a wake, so it never stalls: what does
 //! not happen in time is tried again.
 
+use super::choose::{Outlook, call, choose};
 use super::place::placements;
-use super::plan::{Goal, Plan, PlanKind, plan_shot};
+use super::plan::{Goal, Plan, plan_shot};
 use super::speed::BALL_PER_TIP_SPEED;
 use super::stroke::{Stroke, approach, resting_pose, withdrawal};
 use super::view::TableView2d;
 use crate::cue::{Aim, CuePath, elevation_over_balls};
 use crate::events::{
-    Call, Command, Event, FactKind, PlayerReport, PlayerState, Source, Topic, Topics, Turn,
+    Choice, Command, Event, FactKind, PlayerReport, PlayerState, Source, Topic, Topics, Turn,
     TurnAfter, Zone,
 };
 use crate::hash::StateHash;
@@ -123,6 +124,8 @@ pub struct Player {
     /// The zone into which the cue ball was put in this turn.
     played_from: Option<Zone>,
     reaims: u32,
+    /// The other player was asked to play again, and this one has not played since.
+    has_asked: bool,
     plan: Option<Plan>,
     stroke: Option<Stroke>,
 }
@@ -164,6 +167,7 @@ impl Player {
             placing: None,
             played_from: None,
             reaims: 0,
+            has_asked: false,
             plan: None,
             stroke: None,
         }
@@ -241,7 +245,9 @@ impl Player {
         }
         match self.state {
             PlayerState::Idle if self.placing.is_some() => self.place_next(delivered, out),
+            PlayerState::Idle if self.must_choose() => self.choose(delivered, out),
             PlayerState::Idle => self.due = None,
+            PlayerState::Lazing if self.must_choose() => self.choose(delivered, out),
             PlayerState::Lazing => self.aim(delivered, out),
             PlayerState::Aiming => self.shoot(delivered, out),
             PlayerState::Shooting => self.missed(delivered, out),
@@ -259,12 +265,32 @@ impl Player {
         };
         self.turn = Some(turn);
         match zone {
+            // Nobody takes the ball up before it is decided how it goes on.
+            _ if self.must_choose() => self.laze(delivered.tick, out),
             Some(zone) => {
                 self.placing = Some(Placing { zone, spots: Vec::new(), tries: 0 });
                 self.place_next(delivered, out);
             }
             None => self.laze(delivered.tick, out),
         }
+    }
+
+    fn must_choose(&self) -> bool {
+        self.turn.as_ref().is_some_and(|turn| !turn.options.is_empty())
+    }
+
+    /// Takes one of the options; if nobody answers, it is said again.
+    fn choose(&mut self, delivered: &Delivered, out: &mut Outcome) {
+        let Some(turn) = self.turn.clone() else { return };
+        let view = self.look(&delivered.table);
+        let goal = Goal::of(&turn, &view, None);
+        let outlook = Outlook::of(&view, &goal, self.settings.throw_factor);
+        if let Some(choice) = choose(&turn.options, outlook, self.has_asked) {
+            self.has_asked = choice == Choice::AskAgain;
+            command(Command::Choose(choice), out);
+        }
+        self.report(PlayerState::Idle, out);
+        self.due = Some(delivered.tick.after(PLACING_TICKS));
     }
 
     /// Puts the cue ball on the next of the spots, and thinks of new ones if there is none left.
@@ -327,9 +353,11 @@ impl Player {
         let goal = Goal::of(&turn, &view, self.played_from);
         let mut plan = plan_shot(&view, cue_ball, &goal, self.settings.throw_factor, &mut self.rng);
         let stroke = self.stroke_for(&mut plan, &view);
-        if let (PlanKind::Pot, Some(ball)) = (plan.kind, plan.target) {
-            command(Command::Call(Call::Ball { ball, pocket: plan.pocket }), out);
+        // It is heard long before the tip has come to the ball.
+        if let Some(call) = call(&plan, turn.calls) {
+            command(Command::Call(call), out);
         }
+        self.has_asked = false;
         let from = delivered.table.cue.unwrap_or_else(|| resting_pose(self.id, &self.bed));
         let path = approach(&from, &stroke, delivered.tick.end_s());
         self.plan = Some(plan);
@@ -467,7 +495,7 @@ impl Participant for Player {
     fn hash(&self, hash: &mut StateHash) {
         hash.u64(self.state as u64);
         hash.u64(self.due.map_or(u64::MAX, |due| due.0));
-        hash.u64(u64::from(self.reaims));
+        hash.u64(u64::from(self.has_asked) << 32 | u64::from(self.reaims));
         let rng = self.rng.state();
         hash.u64(rng as u64);
         hash.u64((rng >> 64) as u64);
@@ -478,6 +506,7 @@ impl Participant for Player {
             hash.u64(turn.ball_in_hand as u64);
             hash.u64(u64::from(turn.groups.is_some()));
             turn.legal_first.iter().for_each(|ball| hash.u64(u64::from(ball.0)));
+            turn.options.iter().for_each(|choice| hash.u64(1 + *choice as u64));
         }
         if let Some(placing) = &self.placing {
             hash.u64(1 + placing.zone as u64);

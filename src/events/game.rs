@@ -39,7 +39,7 @@ pub enum Command {
 /// Which balls are racked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Racking {
-    /// Counts the racks of a game from 0, which the game began with: each stands a little otherwise.
+    /// Counts the racks of a game from 0, which it began with: each stands a little otherwise.
     pub serial: u32,
     /// All of them, or those that fell.
     pub balls: Racked,
@@ -121,6 +121,8 @@ pub enum CallKind {
     Safety,
     /// Nine-ball, after the break: order and rails do not matter.
     PushOut,
+    /// Nothing: what was announced before is taken back.
+    Nothing,
 }
 
 /// What a player may announce before a shot.

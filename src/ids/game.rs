@@ -19,6 +19,8 @@ macro_rules! for_all_games {
             Straight "straight" "straight" straight;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
+            /// Practice: any ball is put anywhere, shots are taken back.
+            Training "training" "training" training;
         }
     };
 }

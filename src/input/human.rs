@@ -9,10 +9,19 @@
 //! | space, `r` | tip to the middle | | |
 //! | Shift held | a tenth of everything | a tenth | |
 //!
+//! A call is proposed from the aim: the first legal ball that it meets, and the pocket nearest to
+//! that ball's way. Tab goes to the next pocket and `b` to the next ball, backwards with Shift; `s`
+//! calls a safety, `o` a push-out, or takes that back. It is said when the stroke begins. Options
+//! are taken with `1` to `3`, or by a click on their line. In training `u` takes a shot back, and
+//! `t` takes up a ball: Tab is the next one then, and `t` again puts it back.
+//!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
 //! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
 //! somebody else holds `f`, and time runs faster.
 
+mod says;
+
+use super::calling::Calling;
 use super::camera::{Camera, Viewpoint};
 use super::feel::{
     AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
@@ -42,7 +51,9 @@ use std::sync::Arc;
 enum Stage {
     /// Somebody else is at the table.
     Waiting,
-    /// The cue ball is in hand.
+    /// One of the options must be taken.
+    Choosing,
+    /// A ball is in hand.
     Placing(Placing),
     /// The cue is at the address.
     Aiming,
@@ -61,11 +72,14 @@ pub struct Human {
     tip_radius_m: f64,
     /// Where the cue ball lay at first: it is put back there where no bed has a head spot [m].
     tee: DVec2,
+    /// Any ball can be put anywhere, and shots can be taken back.
+    is_practice: bool,
     /// The table as it was last seen.
     seen: Arc<Snapshot>,
 
     stage: Stage,
     turn: Option<Arc<Turn>>,
+    calling: Calling,
     /// How the cue is held; its elevation is at least what clears balls and rails.
     aim: Aim,
     /// What the player raised the butt to [rad].
@@ -99,9 +113,11 @@ impl Human {
             radius_m: POOL_RADIUS_M,
             tip_radius_m: TIP_RADIUS_M,
             tee: DVec2::ZERO,
+            is_practice: false,
             seen: Arc::default(),
             stage: Stage::Waiting,
             turn: None,
+            calling: Calling::default(),
             aim: Aim::default(),
             raised_rad: 0.0,
             centre: DVec3::ZERO,
@@ -130,6 +146,13 @@ impl Human {
     #[must_use]
     pub fn with_tip_radius(mut self, radius_m: f64) -> Self {
         self.tip_radius_m = radius_m;
+        self
+    }
+
+    /// The same for training: any ball can be put anywhere, and shots can be taken back.
+    #[must_use]
+    pub fn for_practice(mut self) -> Self {
+        self.is_practice = true;
         self
     }
 
@@ -171,13 +194,16 @@ impl Human {
             aim: self.aim,
             strength_m_s: self.strength_m_s,
             help: self.help,
+            is_practice: self.is_practice,
             ..HumanView::default()
         };
         match &self.stage {
             Stage::Waiting | Stage::Struck => {}
+            Stage::Choosing => view.mode = HumanMode::Choosing,
             Stage::Placing(placing) => {
                 view.mode = HumanMode::Placing;
                 view.placing = Some(placing.at);
+                view.placing_ball = placing.ball;
                 view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
             }
             Stage::Aiming => {
@@ -192,6 +218,9 @@ impl Human {
                 view.ghost = self.ghost.map(|(place, _)| place);
                 view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
             }
+        }
+        if matches!(self.stage, Stage::Aiming | Stage::Stroking(_)) {
+            view.call = self.call_sight().and_then(|sight| self.calling.view(&sight));
         }
         if self.paused {
             view.mode = HumanMode::Paused;
@@ -216,6 +245,7 @@ impl Human {
                 self.held.key(key, down);
                 return down && self.key(key);
             }
+            RawInput::Picked { option } => self.pick(option),
             RawInput::FocusLost => {
                 self.held.forget();
                 self.let_go();
@@ -239,7 +269,7 @@ impl Human {
         }
         let fine = self.fine();
         match &mut self.stage {
-            Stage::Waiting | Stage::Struck => {}
+            Stage::Waiting | Stage::Struck | Stage::Choosing => {}
             Stage::Placing(placing) => {
                 let by = DVec2::new(right, upwards) * (PLACING_M_PER_HEIGHT * fine);
                 placing.moved(by, self.table.bed.as_ref(), self.radius_m);
@@ -279,6 +309,11 @@ impl Human {
                 };
                 self.change_aim(middle);
             }
+            Key::Letter(digit @ '1'..='3') => self.pick(digit as usize - '1' as usize),
+            Key::Letter('u') if self.is_practice && !self.paused => self.take_shot_back(),
+            Key::Letter('t') if self.is_practice && !self.paused => self.take_up(),
+            Key::Tab => self.step(None),
+            Key::Letter(letter @ ('b' | 's' | 'o')) => self.step(Some(letter)),
             Key::Help => self.help = !self.help,
             _ => {}
         }
@@ -337,7 +372,8 @@ impl Human {
         let mut aim = self.aim;
         change(&mut aim);
         aim = aim.limited();
-        let needed = sight::elevation_needed(aim, self.centre, &self.seen, &self.table);
+        let cue_ball = self.cue_ball();
+        let needed = sight::elevation_needed(aim, self.centre, cue_ball, &self.seen, &self.table);
         aim.elevation_rad = self.raised_rad.max(needed);
         if aim == self.aim {
             return;
@@ -348,9 +384,9 @@ impl Human {
     }
 
     fn sight(&mut self) {
-        let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
         let (seen, bed) = (&self.seen, self.table.bed.as_ref());
-        self.ghost = sight::ghost(seen, bed, self.centre, DVec2::new(cos, sin));
+        self.ghost = sight::ghost(seen, bed, self.cue_ball(), self.centre, self.aimed_along());
+        self.follow_with_call();
     }
 
     /// The left button went down.
@@ -361,10 +397,13 @@ impl Human {
         match &mut self.stage {
             Stage::Placing(placing) if !placing.is_put => {
                 placing.is_put = true;
-                let (position_m, zone) = (placing.at, placing.zone);
-                self.command(Command::PlaceBall { ball: BallId::CUE, position_m, zone });
+                let Placing { ball, at: position_m, zone, .. } = *placing;
+                self.command(Command::PlaceBall { ball, position_m, zone });
             }
-            Stage::Aiming => self.stage = Stage::Stroking(Box::new(Tip::new())),
+            Stage::Aiming => {
+                self.announce();
+                self.stage = Stage::Stroking(Box::new(Tip::new()));
+            }
             _ => {}
         }
     }
@@ -422,7 +461,7 @@ impl Human {
         let viewpoint = match self.stage {
             Stage::Placing(_) => Viewpoint::Bird,
             _ if self.is_bird => Viewpoint::Bird,
-            Stage::Waiting => Viewpoint::Overview,
+            Stage::Waiting | Stage::Choosing => Viewpoint::Overview,
             Stage::Aiming | Stage::Stroking(_) => behind_cue,
             Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
         };
@@ -451,14 +490,7 @@ impl Human {
 
     fn hear_fact(&mut self, fact: &Fact, tick: Tick) {
         match fact.kind {
-            FactKind::BallPlaced { ball: BallId::CUE, ok, .. } => {
-                if let Stage::Placing(placing) = &mut self.stage {
-                    placing.is_put = false;
-                    if ok {
-                        self.address();
-                    }
-                }
-            }
+            FactKind::BallPlaced { ball, ok, .. } => self.placed(ball, ok),
             FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. }
                 if matches!(self.stage, Stage::Stroking(_)) =>
             {
@@ -482,22 +514,40 @@ impl Human {
         self.leave_table();
         let zone = match turn.ball_in_hand.zone() {
             // A cue ball that is nowhere must be put down whatever the turn says.
-            None if sight::cue_ball(&self.seen).is_none() => Some(Zone::Anywhere),
+            None if sight::place_of(&self.seen, turn.cue_ball).is_none() => Some(Zone::Anywhere),
             zone => zone,
         };
+        let (must_choose, cue_ball) = (!turn.options.is_empty(), turn.cue_ball);
         self.turn = Some(turn);
+        self.calling = Calling::default();
         match zone {
-            Some(zone) => {
-                let bed = self.table.bed.as_ref();
-                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed, self.tee));
-            }
+            _ if must_choose => self.stage = Stage::Choosing,
+            Some(zone) => self.hold(cue_ball, zone),
             None => self.address(),
         }
     }
 
+    /// Takes a ball in hand.
+    fn hold(&mut self, ball: BallId, zone: Zone) {
+        let bed = self.table.bed.as_ref();
+        self.stage = Stage::Placing(Placing::new(ball, zone, &self.seen, bed, self.tee));
+    }
+
+    /// The ball that is struck in this turn.
+    fn cue_ball(&self) -> BallId {
+        self.turn.as_ref().map_or(BallId::CUE, |turn| turn.cue_ball)
+    }
+
+    /// Horizontal unit vector of the aim.
+    fn aimed_along(&self) -> DVec2 {
+        let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
+        DVec2::new(cos, sin)
+    }
+
     /// Puts the cue behind the cue ball.
     fn address(&mut self) {
-        let (Some(centre), Some(turn)) = (sight::cue_ball(&self.seen), &self.turn) else {
+        let lies = sight::place_of(&self.seen, self.cue_ball());
+        let (Some(centre), Some(turn)) = (lies, &self.turn) else {
             return;
         };
         let bed = self.table.bed.as_ref();
@@ -509,6 +559,22 @@ impl Human {
         self.change_aim(|_| {});
         self.is_aim_new = true;
         self.sight();
+    }
+
+    /// A ball was put down.
+    fn placed(&mut self, ball: BallId, ok: bool) {
+        let cue_ball = self.cue_ball();
+        match &mut self.stage {
+            Stage::Placing(placing) if placing.ball == ball => {
+                placing.is_put = false;
+                if ok {
+                    self.address();
+                }
+            }
+            // A shot was taken back: it lies elsewhere now.
+            Stage::Aiming if ball == cue_ball => self.address(),
+            _ => {}
+        }
     }
 
     /// A ball was struck: takes the cue back before it can touch it again.
@@ -554,7 +620,7 @@ impl Participant for Human {
 
     fn start(&mut self, table: &Snapshot) -> Outcome {
         self.seen = Arc::new(table.clone());
-        self.tee = sight::cue_ball(table).map_or(DVec2::ZERO, DVec3::truncate);
+        self.tee = sight::place_of(table, BallId::CUE).map_or(DVec2::ZERO, DVec3::truncate);
         Outcome::default()
     }
 

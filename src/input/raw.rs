@@ -29,6 +29,11 @@ pub enum RawInput {
         /// Pressed or let go. Repeats of a held key are not reported.
         down: bool,
     },
+    /// A line of the options that are written in the window was clicked, counted from 0.
+    Picked {
+        /// Which.
+        option: usize,
+    },
     /// Another window has the keyboard now: everything held counts as let go.
     FocusLost,
     /// The window was closed.
@@ -57,7 +62,7 @@ pub enum Key {
     Up,
     /// Arrow down.
     Down,
-    /// A letter, lower case.
+    /// A letter, lower case, or a digit.
     Letter(char),
     /// The space bar.
     Space,

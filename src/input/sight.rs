@@ -11,21 +11,31 @@ use glam::{DVec2, DVec3};
 /// By how much the cue is raised at a time to find a way past a ball [rad].
 const RAISE_RAD: f64 = 0.25 * std::f64::consts::PI / 180.0;
 
-/// Where the cue ball's middle is on the bed, if it is in play [m].
-pub(super) fn cue_ball(table: &Snapshot) -> Option<DVec3> {
-    table.on_table().find(|ball| ball.id == BallId::CUE).map(|ball| ball.position)
+/// Where a ball's middle is on the bed, if it is in play [m].
+pub(super) fn place_of(table: &Snapshot, ball: BallId) -> Option<DVec3> {
+    table.on_table().find(|other| other.id == ball).map(|ball| ball.position)
 }
 
-/// The middles of the object balls in play [m].
-pub(super) fn object_balls(table: &Snapshot) -> impl Iterator<Item = DVec3> + '_ {
-    table.on_table().filter(|ball| ball.id != BallId::CUE).map(|ball| ball.position)
+/// The middles of the balls in play but this one [m].
+pub(super) fn others(table: &Snapshot, ball: BallId) -> impl Iterator<Item = DVec3> + '_ {
+    table.on_table().filter(move |other| other.id != ball).map(|ball| ball.position)
+}
+
+/// How far the cue ball goes from `centre` along a unit vector until it meets a ball of its size at
+/// `place` [m]; none if it passes.
+pub(super) fn meets(centre: DVec3, direction: DVec2, place: DVec2) -> Option<f64> {
+    let to = place - centre.truncate();
+    let (along, beside) = (to.dot(direction), to.perp_dot(direction));
+    let rest = 4.0 * centre.z * centre.z - beside * beside;
+    (along > 0.0 && rest > 0.0).then(|| along - rest.sqrt())
 }
 
 /// Where a turn's first aim points: at the rack's apex on a break, else (or if nobody racked) at
 /// the nearest ball that may be met first, and along the table if there is none.
 pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: DVec2) -> DVec2 {
-    let is_racked =
-        |apex: &DVec2| object_balls(table).any(|ball| ball.truncate().distance(*apex) < ball.z);
+    let is_racked = |apex: &DVec2| {
+        others(table, turn.cue_ball).any(|ball| ball.truncate().distance(*apex) < ball.z)
+    };
     let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break).filter(is_racked);
     let nearest = || {
         let may_be_met = |id: &BallId| turn.legal_first.contains(id);
@@ -40,10 +50,16 @@ pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: 
 
 /// Smallest elevation at which the cue of `aim` clears hand, rails and balls behind the cue ball
 /// [rad].
-pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table: &Table) -> f64 {
+pub(super) fn elevation_needed(
+    aim: Aim,
+    centre: DVec3,
+    cue_ball: BallId,
+    seen: &Snapshot,
+    table: &Table,
+) -> f64 {
     let radius_m = centre.z;
     let direction = Aim { elevation_rad: 0.0, ..aim }.direction().truncate();
-    let places = object_balls(others).map(DVec3::truncate);
+    let places = others(seen, cue_ball).map(DVec3::truncate);
     let over_balls = elevation_over_balls(centre.truncate(), direction, places, radius_m);
     let over_rail = table.clearance_elevation(centre.truncate(), aim.azimuth_rad);
     let mut elevation_rad = over_balls.max(over_rail).max(ELEVATION_MIN_RAD);
@@ -56,7 +72,7 @@ pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table
             let back = (tip - ball).dot(held.direction()).clamp(0.0, CUE_LENGTH_M);
             (tip - held.direction() * back).distance(ball) > reach
         };
-        if object_balls(others).all(is_clear) {
+        if others(seen, cue_ball).all(is_clear) {
             break;
         }
         elevation_rad += RAISE_RAD;
@@ -69,16 +85,15 @@ pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table
 pub(super) fn ghost(
     table: &Snapshot,
     bed: Option<&Bed>,
+    cue_ball: BallId,
     centre: DVec3,
     direction: DVec2,
 ) -> Option<(DVec3, DVec2)> {
     let radius_m = centre.z;
     let from = centre.truncate();
-    let met = object_balls(table).filter_map(|ball| {
-        let to = ball.truncate() - from;
-        let (along, beside) = (to.dot(direction), to.perp_dot(direction));
-        let rest = 4.0 * radius_m * radius_m - beside * beside;
-        (along > 0.0 && rest > 0.0).then(|| (along - rest.sqrt(), ball.truncate()))
+    let met = others(table, cue_ball).filter_map(|ball| {
+        let ball = ball.truncate();
+        Some((meets(centre, direction, ball)?, ball))
     });
     let first = met.min_by(|a, b| a.0.total_cmp(&b.0));
     let wall = bed.map(|bed| {

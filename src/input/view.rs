@@ -1,6 +1,8 @@
 //! What a player at mouse and keyboard sees and does, for the picture.
 
+use super::CallView;
 use crate::cue::Aim;
+use crate::ids::BallId;
 use glam::{DVec2, DVec3};
 
 /// From where the picture is taken.
@@ -31,8 +33,10 @@ pub enum HumanMode {
     /// Somebody else is at the table, or balls roll.
     #[default]
     Watching,
-    /// Puts the cue ball down.
+    /// Puts a ball down.
     Placing,
+    /// Must say how it goes on; the pointer is free.
+    Choosing,
     /// Turns the cue, sets tip offset and elevation.
     Aiming,
     /// Holds the cue for a stroke: pulling back and pushing moves the tip.
@@ -54,8 +58,10 @@ pub struct HumanView {
     pub pulled_back_m: f64,
     /// Speed of the tip at its last contact with the cue ball, or now while stroking [m/s].
     pub strength_m_s: f64,
-    /// Where the cue ball would be put down [m], while placing.
+    /// Where a ball would be put down [m], while placing.
     pub placing: Option<DVec2>,
+    /// Which ball that is.
+    pub placing_ball: BallId,
     /// It may be put there.
     pub placing_allowed: bool,
     /// Where the cue ball's centre is when it meets the first ball or cushion on its straight way
@@ -64,6 +70,10 @@ pub struct HumanView {
     /// Which way the ball that is met there leaves, without friction: a unit vector; zero if it
     /// meets a cushion.
     pub object_heading: DVec2,
+    /// What is announced with the stroke, while aiming.
+    pub call: Option<CallView>,
+    /// Any ball can be put anywhere, and shots can be taken back.
+    pub is_practice: bool,
     /// The help text is shown.
     pub help: bool,
 }

@@ -35,7 +35,9 @@ mod tip;
 
 pub use segment::{Course, Segment};
 
-use super::{Ledger, Parameters, PhysicsError, Solver, Work, checks, tolerance};
+use super::{
+    Ledger, Lie, Memory, Order, Parameters, PhysicsError, Solver, Work, checks, tolerance,
+};
 use crate::ball::{Ball, BallState};
 use crate::cue::CuePose;
 use crate::events::{Command, Fact, FactSet};
@@ -72,7 +74,9 @@ pub struct EventDriven {
     now: Seconds,
     /// The last event [s].
     done: Seconds,
-    commands: VecDeque<(Seconds, Command)>,
+    commands: VecDeque<(Seconds, Order)>,
+    /// Where the balls lay before the last shots.
+    memory: Memory,
     /// Facts that were computed but not handed over yet.
     told: Vec<Fact>,
     /// Pairs that touched, and when last [s], in ascending order.
@@ -149,6 +153,7 @@ impl EventDriven {
             now: 0.0,
             done: 0.0,
             commands: VecDeque::new(),
+            memory: Memory::default(),
             told: Vec::new(),
             touching: Vec::new(),
             lasting_at: f64::INFINITY,
@@ -227,11 +232,11 @@ impl EventDriven {
             Next::Ball(index) => self.ball_event(at, index)?,
             Next::Tip => self.tip_event(at)?,
             Next::Lasting => self.step_lasting(at)?,
-            Next::Command => {
-                if let Some((_, command)) = self.commands.pop_front() {
-                    self.carry_out(at, &command)?;
-                }
-            }
+            Next::Command => match self.commands.pop_front() {
+                Some((_, Order::Command(command))) => self.carry_out(at, &command)?,
+                Some((_, Order::Lay(lies))) => self.lay_all(at, &lies),
+                None => {}
+            },
             Next::Settle => self.settle(at),
             Next::Nothing => {}
         }
@@ -293,10 +298,16 @@ fn largest(balls: &[(Ball, BallState)]) -> f64 {
 impl Solver for EventDriven {
     fn apply(&mut self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
         self.check_command(at, command)?;
-        let at = at.max(self.now);
-        let place = self.commands.partition_point(|(other, _)| *other <= at);
-        self.commands.insert(place, (at, command.clone()));
+        self.order(at, Order::Command(command.clone()));
         Ok(())
+    }
+
+    fn lay(&mut self, at: Seconds, lies: Arc<[Lie]>) {
+        self.order(at, Order::Lay(lies));
+    }
+
+    fn remember(&mut self, shots: usize) {
+        self.memory = Memory::of(shots);
     }
 
     fn advance(
@@ -379,5 +390,6 @@ impl Solver for EventDriven {
         hash.f64(self.rest_since.unwrap_or(f64::INFINITY));
         hash.u64(self.commands.len() as u64);
         hash.u64(self.told.len() as u64);
+        self.memory.hash(hash);
     }
 }

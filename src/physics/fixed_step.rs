@@ -30,8 +30,8 @@ mod tell;
 pub(crate) use body::{Knot, between};
 
 use super::{
-    Integrator, Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Solver, Work, checks,
-    tolerance,
+    Integrator, Ledger, Lie, Memory, Order, Parameters, PhysicsError, PhysicsSettings, Profile,
+    Solver, Work, checks, tolerance,
 };
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::CuePose;
@@ -67,6 +67,8 @@ pub struct FixedStep {
     /// Steps so far: the state is that of grid time `step`.
     step: u64,
     commands: VecDeque<Due>,
+    /// Where the balls lay before the last shots.
+    memory: Memory,
     /// Facts that were computed but lie beyond the time asked for.
     pending: VecDeque<Fact>,
     /// Facts of the step in hand.
@@ -90,11 +92,11 @@ pub struct FixedStep {
     cell_m: f64,
 }
 
-/// A command and the step at whose start it acts.
+/// What is to be done and the step at whose start it acts.
 #[derive(Debug, Clone)]
 struct Due {
     step: u64,
-    command: Command,
+    order: Order,
 }
 
 /// Memory that is used again in each step; holds nothing between steps.
@@ -179,6 +181,7 @@ impl FixedStep {
             cue: None,
             step: 0,
             commands: VecDeque::new(),
+            memory: Memory::default(),
             pending: VecDeque::new(),
             told: Vec::new(),
             changes: false,
@@ -396,10 +399,16 @@ impl FixedStep {
 impl Solver for FixedStep {
     fn apply(&mut self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
         self.check_command(at, command)?;
-        let step = self.step_at(at).max(self.step);
-        let place = self.commands.partition_point(|due| due.step <= step);
-        self.commands.insert(place, Due { step, command: command.clone() });
+        self.order(at, Order::Command(command.clone()));
         Ok(())
+    }
+
+    fn lay(&mut self, at: Seconds, lies: Arc<[Lie]>) {
+        self.order(at, Order::Lay(lies));
+    }
+
+    fn remember(&mut self, shots: usize) {
+        self.memory = Memory::of(shots);
     }
 
     fn advance(
@@ -483,6 +492,7 @@ impl Solver for FixedStep {
         hash.u64(self.commands.len() as u64);
         hash.u64(self.pending.len() as u64);
         self.pending.iter().for_each(|fact| hash.f64(fact.time_s));
+        self.memory.hash(hash);
     }
 }
 

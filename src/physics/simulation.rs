@@ -4,7 +4,8 @@ use super::event_driven::EventDriven;
 use super::fixed_step::{CELL_M, FixedStep};
 use super::shot::{Shot, Strike, Tracks};
 use super::{
-    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Snapshot, Solver, SolverKind, Work,
+    Ledger, Parameters, PhysicsError, PhysicsSettings, Profile, Racks, Snapshot, Solver,
+    SolverKind, Work,
 };
 use crate::ball::{Ball, BallState, Motion};
 use crate::events::{Command, Fact, FactSet, Topic};
@@ -13,6 +14,7 @@ use crate::ids::BallId;
 use crate::rack::Rack;
 use crate::table::Table;
 use crate::units::Seconds;
+use std::sync::Arc;
 
 /// A shot that has not come to rest by then never will [s].
 const LONGEST_SHOT_S: Seconds = 600.0;
@@ -45,6 +47,8 @@ pub struct Simulation {
     engine: Engine,
     now_s: Seconds,
     tip_radius_m: f64,
+    racks: Option<Arc<Racks>>,
+    is_strict: bool,
 }
 
 /// The solvers to choose from.
@@ -74,7 +78,31 @@ impl Simulation {
     /// A rack on a table, with default settings.
     pub fn new(table: Table, rack: Rack) -> Result<Self, PhysicsError> {
         let balls = rack.place(&table)?;
-        Self::from_parts(&table, balls, &PhysicsSettings::default())
+        let racks = Racks::new(rack, Vec::new(), &table);
+        Ok(Self::from_parts(&table, balls, &PhysicsSettings::default())?.with_racks(racks))
+    }
+
+    /// The same with racks, which [`Command::Rack`] lays down; without them it does nothing.
+    #[must_use]
+    pub fn with_racks(mut self, racks: Racks) -> Self {
+        self.racks = Some(Arc::new(racks));
+        self
+    }
+
+    /// The same world that keeps where its balls lay before each of the last `shots` shots:
+    /// [`Command::Undo`] puts them back there; without a memory it does nothing.
+    #[must_use]
+    pub fn with_memory(mut self, shots: usize) -> Self {
+        self.engine.solver_mut().remember(shots);
+        self
+    }
+
+    /// The same world for a game in which nobody may take up an object ball: such a
+    /// [`Command::PlaceBall`] does nothing.
+    #[must_use]
+    pub fn with_object_balls_left_alone(mut self) -> Self {
+        self.is_strict = true;
+        self
     }
 
     /// Balls on a table, with the given settings and the parameters that these ask for.
@@ -113,7 +141,7 @@ impl Simulation {
                 Engine::FixedStep(Box::new(solver))
             }
         };
-        Ok(Simulation { engine, now_s: 0.0, tip_radius_m })
+        Ok(Simulation { engine, now_s: 0.0, tip_radius_m, racks: None, is_strict: false })
     }
 
     /// Other balls at their start, at time zero, on the same table with the same settings. The
@@ -123,7 +151,7 @@ impl Simulation {
             Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),
             Engine::FixedStep(solver) => Engine::FixedStep(Box::new(solver.with_balls(balls)?)),
         };
-        Ok(Simulation { engine, now_s: 0.0, tip_radius_m: self.tip_radius_m })
+        Ok(Simulation { engine, now_s: 0.0, ..self.clone() })
     }
 
     /// The time reached [s].
@@ -133,7 +161,17 @@ impl Simulation {
 
     /// Has a command carried out at `at`, or at the next grid time of the solver.
     pub fn apply(&mut self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
-        self.engine.solver_mut().apply(at, command)
+        match command {
+            Command::PlaceBall { ball, .. } if self.is_strict && *ball != BallId::CUE => Ok(()),
+            Command::Rack(racking) => {
+                if let Some(racks) = &self.racks {
+                    let lies = racks.lies(*racking, &self.snapshot(at.max(self.now_s)));
+                    self.engine.solver_mut().lay(at, lies);
+                }
+                Ok(())
+            }
+            _ => self.engine.solver_mut().apply(at, command),
+        }
     }
 
     /// Runs to `limit`, or to the first fact in `stop`; appends what happened in time order;

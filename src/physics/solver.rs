@@ -1,12 +1,13 @@
 //! What every solver can do.
 
-use super::{Ledger, PhysicsError, Work};
+use super::{Ledger, Lie, PhysicsError, Work};
 use crate::ball::BallState;
 use crate::cue::CuePose;
 use crate::events::{Command, Fact, FactSet};
 use crate::hash::StateHash;
 use crate::ids::BallId;
 use crate::units::Seconds;
+use std::sync::Arc;
 
 /// Moves a world of balls through time. The only way to change it is a command.
 ///
@@ -14,6 +15,14 @@ use crate::units::Seconds;
 pub trait Solver {
     /// Has `command` carried out at `at`, or as soon as the solver can after what it has computed.
     fn apply(&mut self, at: Seconds, command: &Command) -> Result<(), PhysicsError>;
+
+    /// Has balls laid down at `at`, at rest, where they may lie: in no wall and in no other ball.
+    /// What is no ball of this world is passed over.
+    fn lay(&mut self, at: Seconds, lies: Arc<[Lie]>);
+
+    /// Keeps from now on where the balls lay when the last `shots` shots began, so that
+    /// [`Command::Undo`] finds them.
+    fn remember(&mut self, shots: usize);
 
     /// Runs to `limit`, or to the first fact in `stop`; appends what happened in time order;
     /// returns the time reached.

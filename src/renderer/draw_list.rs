@@ -6,12 +6,20 @@ use crate::cue::{CuePose, TIP_RADIUS_M};
 use crate::ids::BallId;
 use crate::input::{CameraPose, HumanMode, HumanView};
 use crate::physics::Snapshot;
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 /// How far lines float above the cloth [m]: above the marks on it, and no eye sees a gap.
 const LINE_LIFT_M: f64 = 0.0015;
 /// Half the width of an aim line [m].
 const LINE_HALF_WIDTH_M: f32 = 0.0016;
+/// Radius of the ring round a called ball [m].
+const CALLED_BALL_M: f64 = 1.35 * POOL_RADIUS_M;
+/// How far the ring of a called pocket is from its edge [m].
+const CALLED_POCKET_GAP_M: f64 = 0.012;
+/// Height of such rings [m]: above the rails, so that they hide nothing of it.
+const RING_HEIGHT_M: f64 = 0.045;
+/// Half the width of their line [m].
+const RING_HALF_WIDTH_M: f32 = 0.003;
 /// How far the line of an object ball's way is drawn [m].
 const OBJECT_WAY_M: f64 = 0.30;
 
@@ -106,8 +114,8 @@ pub struct DrawList {
 impl DrawList {
     /// What a player sees of the world.
     pub fn new(world: &Snapshot, view: &HumanView, radii: &Radii) -> Self {
-        // A cue ball that lay on the table when it was taken up is in the hand now.
-        let in_hand = view.placing.map(|_| BallId::CUE);
+        // A ball that lay on the table when it was taken up is in the hand now.
+        let in_hand = view.placing.map(|_| view.placing_ball);
         let balls = world
             .on_table()
             .filter(|ball| Some(ball.id) != in_hand)
@@ -121,9 +129,12 @@ impl DrawList {
             ghosts: Vec::new(),
         };
         match view.mode {
-            HumanMode::Aiming | HumanMode::Stroking => list.show_aim(world, view, radii),
+            HumanMode::Aiming | HumanMode::Stroking => {
+                list.show_aim(world, view, radii);
+                list.show_call(view);
+            }
             HumanMode::Placing => list.show_placing(view, radii),
-            HumanMode::Watching | HumanMode::Paused => {}
+            HumanMode::Choosing | HumanMode::Watching | HumanMode::Paused => {}
         }
         list
     }
@@ -155,11 +166,41 @@ impl DrawList {
 
     fn show_placing(&mut self, view: &HumanView, radii: &Radii) {
         let Some(at) = view.placing else { return };
-        let radius_m = radii.of(BallId::CUE);
-        let colour =
-            if view.placing_allowed { [1.0, 1.0, 0.96, 0.85] } else { [0.95, 0.2, 0.15, 0.6] };
+        let radius_m = radii.of(view.placing_ball);
+        let [r, g, b] = ball_look(view.placing_ball).colour;
+        let colour = match (view.placing_allowed, view.placing_ball) {
+            (false, _) => [0.95, 0.2, 0.15, 0.6],
+            (true, BallId::CUE) => [1.0, 1.0, 0.96, 0.85],
+            (true, _) => [r, g, b, 0.85],
+        };
         let position = at.extend(radius_m).as_vec3().to_array();
         self.ghosts.push(GhostBall { position, radius_m: radius_m as f32, colour });
+    }
+
+    /// Rings round the called ball and its pocket.
+    fn show_call(&mut self, view: &HumanView) {
+        let Some(call) = &view.call else { return };
+        if let Some(at) = call.ball_at {
+            self.ring(at, CALLED_BALL_M);
+        }
+        if let Some((at, radius_m)) = call.pocket_at {
+            self.ring(at, radius_m + CALLED_POCKET_GAP_M);
+        }
+    }
+
+    /// A ring that floats above cloth and rails.
+    fn ring(&mut self, middle: DVec2, radius_m: f64) {
+        let corner = |k: u32| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(k) / 32.0);
+            let at = middle + DVec2::new(cos, sin) * radius_m;
+            at.extend(RING_HEIGHT_M).as_vec3().to_array()
+        };
+        self.lines.extend((0..32).map(|k| Line {
+            from: corner(k),
+            to: corner(k + 1),
+            half_width_m: RING_HALF_WIDTH_M,
+            colour: [1.0, 0.8, 0.38, 0.9],
+        }));
     }
 
     /// A line at the height of the cloth under balls of this radius.

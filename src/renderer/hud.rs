@@ -20,6 +20,8 @@ pub struct SeatPanel {
     pub plays: String,
     /// The balls still to be pocketed.
     pub remaining: Remaining,
+    /// Points, where the game has them.
+    pub score: Option<i32>,
     /// It is this player's turn.
     pub is_at_table: bool,
 }
@@ -62,6 +64,10 @@ pub struct Hud {
     pub message: Vec<String>,
     /// The message tells of a foul.
     pub is_foul: bool,
+    /// What is announced for the shot.
+    pub call: Option<String>,
+    /// What the player must choose from, a line each; the numbers are the keys.
+    pub options: Vec<String>,
     /// What the player can do now.
     pub hint: String,
     /// Where the tip meets the cue ball, while aiming.
@@ -111,6 +117,16 @@ impl Hud {
         if let Some(reason) = &board.unfelt {
             hud.message.push(words.fill("haptic", "reason", reason));
         }
+        let call = match view.mode {
+            HumanMode::Aiming | HumanMode::Stroking => view.call.as_ref().map(|view| &view.call),
+            _ => board.call.as_ref(),
+        };
+        hud.call = call.filter(|_| board.over.is_none()).map(|call| texts.call(call));
+        if let (HumanMode::Choosing, Some(turn)) = (view.mode, &board.turn) {
+            let lines = turn.options.iter().enumerate();
+            hud.options =
+                lines.map(|(i, choice)| format!("{}   {}", i + 1, texts.choice(*choice))).collect();
+        }
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
             hud.tip = Some(TipDial {
@@ -154,6 +170,7 @@ fn seats(board: &Scoreboard, words: &Words) -> Vec<SeatPanel> {
                 name: board.name(player).to_string(),
                 plays,
                 remaining: remaining.map_or(Remaining::Open, Remaining::Balls),
+                score: board.turn.as_ref().and_then(|turn| Some(turn.score?.of(player))),
                 is_at_table: board.over.is_none()
                     && board.turn.as_ref().is_some_and(|turn| turn.player == player),
             }
@@ -166,8 +183,13 @@ fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
         return String::new();
     }
     match view.mode {
+        HumanMode::Choosing => words.get("choose"),
+        HumanMode::Placing if view.placing_allowed && view.is_practice => {
+            words.get("training_in_hand")
+        }
         HumanMode::Placing if view.placing_allowed => words.get("in_hand"),
         HumanMode::Placing => words.get("not_there"),
+        HumanMode::Aiming if view.is_practice => words.get("training"),
         HumanMode::Aiming => words.get("aim"),
         HumanMode::Stroking => words.get("stroke"),
         HumanMode::Paused => String::new(),
@@ -175,6 +197,7 @@ fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
         HumanMode::Watching => {
             let Some(turn) = &board.turn else { return String::new() };
             let key = match board.states[turn.player.index()] {
+                PlayerState::Lazing if !turn.options.is_empty() => "choosing",
                 PlayerState::Lazing => "thinking",
                 PlayerState::Aiming => "aiming",
                 PlayerState::Shooting => "shooting",

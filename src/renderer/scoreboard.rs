@@ -1,7 +1,8 @@
 //! The scoreboard: the state of a game as a window shows it, reduced from events.
 
 use crate::events::{
-    Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
+    Call, CallKind, Command, Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics,
+    Turn, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
 use std::sync::Arc;
@@ -21,6 +22,8 @@ pub struct Scoreboard {
     pub groups: Option<Groups>,
     /// Where a computer player stands in its turn.
     pub states: [PlayerState; 2],
+    /// What was announced for the next shot.
+    pub call: Option<Call>,
     /// A stroke was made and the balls have not settled.
     pub is_rolling: bool,
     /// The game is over; who won, if anybody.
@@ -30,6 +33,9 @@ pub struct Scoreboard {
     /// What is wrong with the haptic device, while something is.
     pub unfelt: Option<String>,
 }
+
+/// A call that takes the one before back.
+const NOTHING: Call = Call::Kind(CallKind::Nothing);
 
 impl Scoreboard {
     /// Before the first event.
@@ -43,6 +49,7 @@ impl Scoreboard {
             Topic::Turn,
             Topic::Verdict,
             Topic::Player,
+            Topic::Command,
             Topic::CueBallStruck,
             Topic::BallPocketed,
             Topic::BallOffTable,
@@ -58,6 +65,7 @@ impl Scoreboard {
                 self.on_table = turn.on_table.to_vec();
                 self.groups = turn.groups;
                 self.is_rolling = false;
+                self.call = None;
                 self.turn = Some(turn.clone());
             }
             Event::Verdict(verdict) => {
@@ -94,6 +102,10 @@ impl Scoreboard {
                 Health::ActorRestarted { actor } if actor == "haptic" => self.unfelt = None,
                 _ => {}
             },
+            Event::Command(Command::Call(call)) => {
+                self.call = Some(call.clone()).filter(|call| *call != NOTHING);
+            }
+            Event::Command(Command::Undo) => self.verdict = None,
             Event::Command(_) | Event::Menu(_) => {}
         }
     }

@@ -7,7 +7,7 @@ use super::phase::Phase;
 use super::referee::Referee;
 use super::state::State;
 use crate::events::Choice;
-use crate::events::{Call, Command, Event, Source, Turn, Verdict};
+use crate::events::{Call, CallKind, Command, Event, Source, Turn, Verdict};
 use crate::ids::BallId;
 use crate::ids::GameKind;
 use crate::one_line::{one_line, without_place};
@@ -38,6 +38,9 @@ pub struct ConsoleAnswer {
     /// The verdict that this line brought about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Arc<Verdict>>,
+    /// What the player at the table has announced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub call: Option<Call>,
     /// The turn that this line brought about.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<Arc<Turn>>,
@@ -94,12 +97,13 @@ impl Console {
             phase: self.referee.phase(),
             state: self.referee.state().clone(),
             verdict: None,
+            call: self.referee.call().cloned(),
             turn: None,
         }
     }
 
     /// Takes the next line: a fact, `{"call":…}` as rule scenarios have it, `{"choose":"accept"}`,
-    /// or `{"state":{…}}` to go on from another state.
+    /// in training `{"undo":true}`, or `{"state":{…}}` to go on from another state.
     ///
     /// What `simulate --json` prints passes through: its facts are heard, the rest is passed over,
     /// as are empty lines and comments (`#`). After an error the game stands where it stood.
@@ -121,7 +125,7 @@ impl Console {
             })?;
         let is_fact = object.contains_key("e") || object.contains_key("fact");
         let kind = self.referee.game();
-        for key in ["call", "choose"] {
+        for key in ["call", "choose", "undo"] {
             if let (false, Some(value)) = (is_fact, object.get(key)) {
                 return self.obey(text, key, value.clone());
             }
@@ -164,12 +168,14 @@ impl Console {
         numbered(self.referee.game(), &mut value);
         let command = match key {
             "call" => Command::Call(Call::deserialize(value).map_err(unknown)?),
+            "undo" => Command::Undo,
             _ => Command::Choose(Choice::deserialize(value).map_err(unknown)?),
         };
         let phase = self.referee.phase();
         let mut after = self.referee.clone();
         let said = after.obey(Source::Input, &command);
         let is_heard = match &command {
+            Command::Call(Call::Kind(CallKind::Nothing)) => after.call().is_none(),
             Command::Call(call) => after.call() == Some(call),
             _ => !said.is_empty(),
         };

@@ -31,8 +31,14 @@ pub struct Game {
     pub balls: u16,
     /// Names of balls in rule files, where these are no numbers; the first is ball 0.
     pub names: &'static [&'static str],
+    /// The rack that the game begins with, by its name in a scene; none if any balls will do.
+    pub rack: Option<&'static str>,
+    /// How many play at least; never more than two.
+    pub players: usize,
     /// Whether players have points.
     pub has_score: bool,
+    /// Any ball may be put anywhere, and shots are taken back.
+    pub is_practice: bool,
     /// What ends the game, for the diagram.
     pub ends: &'static str,
     /// When the cue ball is in hand, for the diagram.
@@ -69,7 +75,10 @@ impl Game {
         facts: &[],
         balls: 15,
         names: &[],
+        rack: None,
+        players: 1,
         has_score: false,
+        is_practice: false,
         ends: "Settled, somebody has won",
         in_hand: "Turn, cue ball in hand",
     };

@@ -73,8 +73,8 @@ impl Phase {
             (Phase::Placing | Phase::Waiting, Signal::ShotBegan) => Some(Phase::Shooting),
             // A placement was refused, or a call heard: the same turn is announced again.
             (Phase::Placing | Phase::Waiting, Signal::TurnInHand) => Some(Phase::Placing),
-            (Phase::Waiting, Signal::TurnAsItLies) => Some(Phase::Waiting),
-            (Phase::Placing, Signal::TurnAsItLies) => None,
+            // Training takes a shot back.
+            (Phase::Placing | Phase::Waiting, Signal::TurnAsItLies) => Some(Phase::Waiting),
             (Phase::Placing | Phase::Waiting, Signal::TurnToChoose | Signal::GameOver) => None,
 
             (Phase::Shooting, Signal::GameOver) => Some(Phase::Over),

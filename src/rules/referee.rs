@@ -19,7 +19,11 @@ use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
 use crate::tick::{Delivered, Outcome, Participant};
 use smallvec::SmallVec;
+use std::collections::VecDeque;
 use std::sync::Arc;
+
+/// So many shots can be taken back in training.
+pub const UNDO_SHOTS: usize = 64;
 
 /// What the referee says, in this order.
 type Sayings = SmallVec<[Event; 4]>;
@@ -33,6 +37,8 @@ pub struct Referee {
     state: State,
     /// The rack is not that of the table but part of a state that was given.
     is_resumed: bool,
+    /// The object balls of a full rack: those that the game began with.
+    full_rack: SmallVec<[BallId; 16]>,
     /// What the player has announced for the next shot.
     call: Option<Call>,
     shot: Shot,
@@ -40,6 +46,8 @@ pub struct Referee {
     /// Racks of this game so far, the first not counted.
     racks: u32,
     verdict: Option<Arc<Verdict>>,
+    /// In training, how it stood when each of the last shots began.
+    history: VecDeque<(State, u32)>,
 }
 
 impl Referee {
@@ -56,11 +64,13 @@ impl Referee {
             phase: Phase::Opening,
             state: State::opening(game, PlayerId::ONE, []),
             is_resumed: false,
+            full_rack: (1..=self::game(game).balls).map(BallId).collect(),
             call: None,
             shot: Shot::default(),
             shot_number: 1,
             racks: 0,
             verdict: None,
+            history: VecDeque::new(),
         }
     }
 
@@ -74,6 +84,13 @@ impl Referee {
     #[must_use]
     pub fn first_player(mut self, player: PlayerId) -> Self {
         self.state.player = player;
+        self
+    }
+
+    /// Lets the first player play alone, where the game has no use for a second one.
+    #[must_use]
+    pub fn alone(mut self) -> Self {
+        self.state.is_alone = true;
         self
     }
 
@@ -108,7 +125,9 @@ impl Referee {
             return Sayings::new();
         }
         if !self.is_resumed {
-            self.state = State::opening(self.game, self.state.player, on_table);
+            let State { player, is_alone, .. } = self.state;
+            self.state = State { is_alone, ..State::opening(self.game, player, on_table) };
+            self.full_rack.clone_from(&self.state.on_table);
             self.shot = Shot::of(self.state.cue_ball);
         }
         self.announce_turn()
@@ -127,11 +146,36 @@ impl Referee {
                 self.take_choice(*choice)
             }
             (Phase::Placing | Phase::Waiting, Command::Call(call)) if self.may_call(call) => {
-                self.call = Some(call.clone());
+                let is_taken_back = *call == Call::Kind(CallKind::Nothing);
+                self.call = (!is_taken_back).then(|| call.clone());
                 Sayings::new()
             }
+            (Phase::Placing | Phase::Waiting | Phase::Shooting, Command::Undo) => self.take_back(),
             _ => Sayings::new(),
         }
+    }
+
+    /// Goes back to how it stood when the last shot began, which may be still under way.
+    fn take_back(&mut self) -> Sayings {
+        let Some((state, shot_number)) = self.history.pop_back() else { return Sayings::new() };
+        self.shot = Shot::of(state.cue_ball);
+        (self.state, self.shot_number) = (state, shot_number);
+        self.verdict = None;
+        self.announce_turn()
+    }
+
+    fn begin_shot(&mut self) {
+        if self.is_practice() {
+            if self.history.len() == UNDO_SHOTS {
+                self.history.pop_front();
+            }
+            self.history.push_back((self.state.clone(), self.shot_number));
+        }
+        self.go(Signal::ShotBegan);
+    }
+
+    fn is_practice(&self) -> bool {
+        game(self.game).is_practice
     }
 
     fn may_call(&self, call: &Call) -> bool {
@@ -144,6 +188,7 @@ impl Referee {
             }
             Call::Kind(CallKind::Safety) => calls.safety,
             Call::Kind(CallKind::PushOut) => calls.push_out,
+            Call::Kind(CallKind::Nothing) => true,
         }
     }
 
@@ -163,12 +208,21 @@ impl Referee {
     }
 
     fn rack(&mut self, balls: Racked) -> Event {
+        if balls == Racked::All {
+            self.state.on_table.clone_from(&self.full_rack);
+        }
         self.racks = self.racks.saturating_add(1);
         Event::Command(Command::Rack(Racking { serial: self.racks, balls }))
     }
 
     /// Hears one fact. Facts come in time order.
     pub fn handle(&mut self, fact: &Fact) -> Sayings {
+        if let FactKind::BallPlaced { ball, ok: true, .. } = fact.kind
+            && self.is_practice()
+        {
+            watch(&mut self.shot, fact);
+            return self.bring_back(ball);
+        }
         match self.phase {
             // Nobody may shoot before a choice is taken.
             Phase::Opening | Phase::Choosing | Phase::Over => Sayings::new(),
@@ -180,7 +234,7 @@ impl Referee {
                 }
                 FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. } => {
                     watch(&mut self.shot, fact);
-                    self.go(Signal::ShotBegan);
+                    self.begin_shot();
                     Sayings::new()
                 }
                 // What happens between two shots is no part of either.
@@ -216,6 +270,25 @@ impl Referee {
             Sayings::new()
         } else {
             self.announce_turn()
+        }
+    }
+
+    /// Training: a hand has put a ball down, wherever it was.
+    fn bring_back(&mut self, ball: BallId) -> Sayings {
+        let is_cue_ball = ball == self.state.cue_ball;
+        if is_cue_ball {
+            self.state.ball_in_hand = BallInHand::None;
+        } else if self.full_rack.contains(&ball) {
+            self.state.bring_back(ball);
+        }
+        match self.phase {
+            Phase::Placing | Phase::Waiting if is_cue_ball => {
+                self.go(Signal::Placed);
+                Sayings::new()
+            }
+            // Other balls may be met now than before.
+            Phase::Placing | Phase::Waiting => self.announce_turn(),
+            Phase::Opening | Phase::Choosing | Phase::Shooting | Phase::Over => Sayings::new(),
         }
     }
 
@@ -311,8 +384,12 @@ impl Participant for Referee {
         self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
         hash.u64(self.racks.into());
+        for (state, shot_number) in &self.history {
+            state.hash_into(hash);
+            hash.u64((*shot_number).into());
+        }
         hash.u64(match self.call {
-            None => 0,
+            None | Some(Call::Kind(CallKind::Nothing)) => 0,
             Some(Call::Kind(CallKind::Safety)) => 1,
             Some(Call::Kind(CallKind::PushOut)) => 2,
             Some(Call::Ball { ball, pocket }) => {

@@ -86,9 +86,16 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
     match fact.kind {
         FactKind::BallPlaced { ball, zone, ok } if ball == cue_ball => {
             shot.placement = Some((zone, ok));
+            if ok {
+                (shot.cue_pocketed, shot.cue_off) = (false, false);
+            }
         }
-        // Object balls return by the rules' own command, which is no part of a shot.
-        FactKind::BallPlaced { .. } => {}
+        // In training a hand brings a ball back, even while others roll. Elsewhere object balls
+        // return by the rules' own command, which is no part of a shot.
+        FactKind::BallPlaced { ball, ok, .. } => {
+            shot.pocketed.retain(|pocketed| !ok || pocketed.ball != ball);
+            shot.off.retain(|off| !ok || *off != ball);
+        }
         FactKind::CueBallStruck { ball, push, moving, player, .. } if ball == cue_ball => {
             shot.tips = shot.tips.saturating_add(1);
             shot.push |= push;

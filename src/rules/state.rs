@@ -64,6 +64,9 @@ pub struct State {
     /// What the player must choose from before anybody shoots; nothing if there is no choice.
     #[serde(skip_serializing_if = "SmallVec::is_empty")]
     pub options: SmallVec<[Choice; 3]>,
+    /// Nobody plays but this player.
+    #[serde(skip_serializing_if = "is_false")]
+    pub is_alone: bool,
 }
 
 impl Default for State {
@@ -86,6 +89,7 @@ impl Default for State {
             free_ball: false,
             cue_ball: BallId::CUE,
             options: SmallVec::new(),
+            is_alone: false,
         }
     }
 }
@@ -140,7 +144,8 @@ impl State {
     /// has counted so far.
     pub fn reopened(&self, kind: GameKind, player: PlayerId) -> Self {
         let balls = (0..=game(kind).balls).map(BallId);
-        State { score: self.score, ..State::opening(kind, player, balls) }
+        let (score, is_alone) = (self.score, self.is_alone);
+        State { score, is_alone, ..State::opening(kind, player, balls) }
     }
 
     /// Whether this is the first shot of a rack.
@@ -186,6 +191,13 @@ impl State {
         self.on_table.iter().copied().filter(is_left).collect()
     }
 
+    /// A hand has put an object ball on the table.
+    pub fn bring_back(&mut self, ball: BallId) {
+        if let Err(place) = self.on_table.binary_search(&ball) {
+            self.on_table.insert(place, ball);
+        }
+    }
+
     /// The state before the next shot, or before the choice that decides it: then it is the
     /// chooser's turn.
     pub fn after(&self, shot: &Shot, verdict: &Verdict) -> State {
@@ -220,6 +232,7 @@ impl State {
             nominated: None,
             breaker: self.breaker,
             cue_ball: self.cue_ball,
+            is_alone: self.is_alone,
         }
     }
 

@@ -2,10 +2,12 @@
 //!
 //! The rules themselves speak in codes; the words are in `config/text/`.
 
+use super::ball_names::ball_name;
 use crate::events::{
-    BallInHand, Choice, Foul, Group, Groups, Racked, ShotKind, Turn, TurnAfter, Verdict,
+    BallInHand, BallOn, Call, CallKind, Choice, Foul, Group, Groups, Racked, ShotKind, Turn,
+    TurnAfter, Verdict,
 };
-use crate::ids::{BallId, PlayerId};
+use crate::ids::{BallId, GameKind, PlayerId};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -45,6 +47,7 @@ impl Language {
 pub struct Texts {
     table: toml::Table,
     names: [String; 2],
+    game: Option<GameKind>,
 }
 
 impl Texts {
@@ -52,7 +55,7 @@ impl Texts {
     pub fn new(language: Language) -> Self {
         // The file is compiled in and a test reads it: it cannot fail on a user's machine.
         let table = language.file().parse().unwrap_or_default();
-        let mut texts = Texts { table, names: Default::default() };
+        let mut texts = Texts { table, names: Default::default(), game: None };
         texts.names = ["1", "2"].map(|number| texts.fill("player", "name", "number", number));
         texts
     }
@@ -61,6 +64,12 @@ impl Texts {
     #[must_use]
     pub fn with_names(self, one: &str, two: &str) -> Self {
         Texts { names: [one.into(), two.into()], ..self }
+    }
+
+    /// The same, with the names that a game has for its balls.
+    #[must_use]
+    pub fn for_game(self, game: GameKind) -> Self {
+        Texts { game: Some(game), ..self }
     }
 
     /// What a verdict says, for example "Foul: the cue ball was pocketed. Ball in hand for
@@ -74,7 +83,7 @@ impl Texts {
             sentences.push(self.fill("verdict", "foul", "reasons", &reasons));
         }
         if !verdict.spot.is_empty() {
-            sentences.push(self.fill("verdict", "spot", "balls", &list(&verdict.spot)));
+            sentences.push(self.fill("verdict", "spot", "balls", &self.list(&verdict.spot)));
         }
         for player in [PlayerId::ONE, PlayerId::TWO] {
             let points = verdict.points.of(player);
@@ -127,11 +136,48 @@ impl Texts {
             }),
         };
         sentences.extend(plays.map(|key| self.about("turn", key, turn.player)));
+        sentences.extend(self.ball_on(turn));
         let hints = [(turn.calls.push_out, "may_push_out"), (turn.warned, "warned")];
         for (_, key) in hints.iter().filter(|(holds, _)| *holds) {
             sentences.push(self.about("turn", key, turn.player));
         }
         sentences.join(" ")
+    }
+
+    /// Which ball must be met first, where that is not for the groups to say.
+    fn ball_on(&self, turn: &Turn) -> Option<String> {
+        let ball = match (turn.on, &turn.legal_first[..]) {
+            (Some(BallOn::Ball(ball)), _) => ball,
+            (Some(on), _) => return Some(self.get("on", &code(&on))),
+            (None, [ball]) if turn.groups.is_none() && turn.on_table.len() > 1 => *ball,
+            _ => return None,
+        };
+        Some(self.fill("on", "ball", "ball", &self.ball(ball)))
+    }
+
+    /// What was announced, for example "Called: the 5 into the pocket at the head, left."
+    pub fn call(&self, call: &Call) -> String {
+        match call {
+            Call::Ball { ball, pocket: None } => {
+                self.fill("call", "nominated", "ball", &self.ball(*ball))
+            }
+            Call::Ball { ball, pocket: Some(pocket) } => {
+                let pocket = self.get("pocket", &code(pocket));
+                let text = self.fill("call", "ball", "ball", &self.ball(*ball));
+                text.replace("{pocket}", &pocket)
+            }
+            Call::Kind(CallKind::Nothing) => String::new(),
+            Call::Kind(kind) => self.get("call", &code(kind)),
+        }
+    }
+
+    /// What a ball is called.
+    fn ball(&self, ball: BallId) -> String {
+        self.game.map_or_else(|| ball.to_string(), |game| ball_name(game, ball))
+    }
+
+    fn list(&self, balls: &[BallId]) -> String {
+        balls.iter().map(|ball| self.ball(*ball)).collect::<Vec<_>>().join(", ")
     }
 
     /// What an option means, for a menu, for example "play the table as it is".
@@ -202,14 +248,11 @@ fn code(value: &impl Serialize) -> String {
     }
 }
 
-fn list(balls: &[BallId]) -> String {
-    balls.iter().map(BallId::to_string).collect::<Vec<_>>().join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::events::Foul;
+    use crate::ids::PocketId;
     use smallvec::smallvec;
 
     /// All fouls. The match keeps the list complete: a new foul does not compile without a place.
@@ -276,6 +319,20 @@ mod tests {
             let texts = Texts::new(language);
             for choice in all_choices() {
                 assert!(!texts.choice(choice).starts_with("choice."), "{language:?} {choice:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_call_has_its_sentence_in_both_languages() {
+        for language in Language::ALL {
+            let texts = Texts::new(language);
+            for pocket in PocketId::ALL {
+                let text = texts.call(&Call::Ball { ball: BallId(5), pocket: Some(pocket) });
+                assert!(text.contains('5') && !text.contains(['{', '_']), "{text}");
+            }
+            for kind in [CallKind::Safety, CallKind::PushOut] {
+                assert!(!texts.call(&Call::Kind(kind)).contains("call."), "{language:?} {kind:?}");
             }
         }
     }

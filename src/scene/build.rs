@@ -3,8 +3,9 @@
 use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
+use crate::ids::GameKind;
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::physics::Parameters;
+use crate::physics::{Parameters, Racks};
 use crate::rack::Rack;
 use crate::table::Table;
 use glam::{DQuat, DVec3};
@@ -48,12 +49,7 @@ impl Scene {
     pub fn build_balls(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, SceneError> {
         let mut balls = Vec::new();
         if let Some(section) = &self.balls {
-            let seed = self.about.seed;
-            let rack = match section.rack {
-                RackKind::EightBall => Rack::eight_ball(seed),
-                RackKind::NineBall => Rack::nine_ball(seed),
-            };
-            balls = rack.place(table).map_err(|error| {
+            balls = self.rack(section.rack).place(table).map_err(|error| {
                 let (found, fix) = (section.rack.name(), "write [table] and preset = \"pool-9ft\"");
                 self.error(section.line, "balls.rack", found, &error.to_string(), fix)
             })?;
@@ -90,6 +86,24 @@ impl Scene {
         Ok(balls)
     }
 
+    /// How the scene's balls are racked, as often as its rules ask for it.
+    pub fn racks(&self, table: &Table) -> Racks {
+        let apart: Vec<_> = self.ball.iter().map(BallSection::placed).collect();
+        let rack = match &self.balls {
+            Some(section) => self.rack(section.rack),
+            None => Rack::from_balls(Vec::new()),
+        };
+        Racks::new(rack, apart, table)
+    }
+
+    fn rack(&self, kind: RackKind) -> Rack {
+        let seed = self.about.seed;
+        match kind {
+            RackKind::EightBall => Rack::eight_ball(seed),
+            RackKind::NineBall => Rack::nine_ball(seed),
+        }
+    }
+
     /// The numbers of the contact laws, with those of the scene's own cue.
     pub fn parameters(&self) -> Parameters {
         let mut parameters = Parameters::of(&self.physics);
@@ -97,6 +111,11 @@ impl Scene {
             cue.apply(&mut parameters);
         }
         parameters
+    }
+
+    /// Why this scene is none of a game, and what helps; none if it is one.
+    pub fn misfit(&self, game: GameKind) -> Option<(String, String)> {
+        super::check::misfit(self, game)
     }
 
     /// The players whose commands come from the input: at a mouse, or from a recording.

@@ -150,26 +150,35 @@ fn game(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
             |section| section.error("game", allowed, fix),
         ))
     };
-    let rack = scene.balls.as_ref().map(|balls| balls.rack);
-    let has_cue_ball = rack.is_some() || scene.ball.iter().any(|ball| ball.id == BallId::CUE);
+    let has_cue_ball =
+        scene.balls.is_some() || scene.ball.iter().any(|ball| ball.id == BallId::CUE);
     if scene.players.is_empty() {
         return wrong("rules need players", "write [[player]] and kind = \"paper\"");
     }
     if !has_cue_ball {
         return wrong("rules need a cue ball, which has the number 0", "write [[ball]] and id = 0");
     }
-    if matches!(rules.game, GameKind::PaperEightBall | GameKind::WpaEightBall) {
-        if rack != Some(RackKind::EightBall) {
-            return wrong(
-                "eight-ball begins with its rack",
-                "write [balls] and rack = \"eight-ball\"",
-            );
-        }
-        if scene.players.len() != 2 {
-            return wrong("eight-ball has two players", "write a second [[player]]");
-        }
+    match misfit(scene, rules.game) {
+        Some((allowed, fix)) => wrong(&allowed, &fix),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Why a scene is none of a game, and what helps; none if it is one.
+pub(super) fn misfit(scene: &Scene, game: GameKind) -> Option<(String, String)> {
+    let needs = crate::rules::game(game);
+    let rack = scene.balls.as_ref().map(|balls| balls.rack.name());
+    if let Some(wanted) = needs.rack
+        && rack != Some(wanted)
+    {
+        let fix = format!("write [balls] and rack = {wanted:?}");
+        return Some((format!("{game} begins with its rack"), fix));
+    }
+    if scene.players.len() < needs.players {
+        let fix = "write a second [[player]]".to_string();
+        return Some((format!("{game} has two players"), fix));
+    }
+    None
 }
 
 /// Everybody who plays has what it takes.

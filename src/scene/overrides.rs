@@ -1,13 +1,16 @@
 //! What a command line may change about a scene; a recording keeps it beside the scene's text.
 
-use super::{PlayerKind, Scene};
-use crate::ids::PlayerId;
+use super::{PlayerKind, RackKind, Scene};
+use crate::ids::{GameKind, PlayerId};
 use serde::{Deserialize, Serialize};
 
 /// Changes to a scene.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Overrides {
+    /// What is played, with the rack of that game.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub game: Option<GameKind>,
     /// Fixes everything random.
     pub seed: Option<u64>,
     /// Who breaks.
@@ -21,6 +24,13 @@ pub struct Overrides {
 impl Overrides {
     /// Changes `scene`.
     pub fn apply(&self, scene: &mut Scene) {
+        if let (Some(game), Some(rules)) = (self.game, &mut scene.rules) {
+            rules.game = game;
+            let rack = crate::rules::game(game).rack.and_then(RackKind::named);
+            if let (Some(rack), Some(balls)) = (rack, &mut scene.balls) {
+                balls.rack = rack;
+            }
+        }
         if let Some(seed) = self.seed {
             scene.about.seed = seed;
         }

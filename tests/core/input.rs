@@ -2,6 +2,8 @@
 
 /// Aiming and placing: what is held how, and what may not be.
 mod aim;
+/// Calls, options, training.
+mod calls;
 /// A game in lockstep with a script at mouse and keyboard.
 pub mod desk;
 /// Whole turns and games of a person.

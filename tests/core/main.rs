@@ -18,6 +18,8 @@ mod geometry;
 mod haptic;
 /// A person at mouse and keyboard, from raw reports to whole games.
 mod input;
+/// What hands lay down: racks set up anew, shots taken back.
+mod lies;
 /// Minigolf: another ground, ball and tip.
 mod minigolf;
 /// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.
@@ -42,5 +44,7 @@ mod table;
 mod tick;
 /// The shape of the repository.
 mod tidy;
+/// Training: shots taken back, balls put anywhere.
+mod training;
 /// Cases with known answers, and catalogues of others.
 mod validation;

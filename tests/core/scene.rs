@@ -360,14 +360,32 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "7: balls.rack = \"snooker\": this build knows \"eight-ball\", \"nine-ball\"; write for \
          example rack = \"eight-ball\"",
     );
-    let games = GameKind::ALL.map(|game| format!("\"{}\"", game.id())).join(", ");
     after_head(
-        "[rules]\ngame = \"bagatelle\"\n",
+        "[rules]\ngame = \"bridge\"\n",
         &format!(
-            "5: rules.game = \"bagatelle\": this build knows {games}; write for example game = \
-             \"paper-eight-ball\""
+            "5: rules.game = \"bridge\": this build knows {}; write for example game = \
+             \"paper-eight-ball\"",
+            GameKind::ALL.map(|game| format!("{:?}", game.id())).join(", ")
         ),
     );
+    for (game, rack) in [("wpa-nine-ball", "nine-ball"), ("straight", "eight-ball")] {
+        let other = if rack == "nine-ball" { "eight-ball" } else { "nine-ball" };
+        let two = "[[player]]\nname = \"A\"\nkind = \"paper\"\n[[player]]\nname = \"B\"\nkind = \
+                   \"paper\"\n";
+        let with = |rack: &str, players: &str| {
+            format!(
+                "[table]\npreset = \"pool-9ft\"\n[cue]\n[rules]\ngame = {game:?}\n[balls]\nrack = \
+                 {rack:?}\n{players}"
+            )
+        };
+        let wrong = format!(
+            "8: rules.game = {game:?}: {game} begins with its rack; write [balls] and rack = {rack:?}"
+        );
+        after_head(&with(other, two), &wrong);
+        let wrong =
+            format!("8: rules.game = {game:?}: {game} has two players; write a second [[player]]");
+        after_head(&with(rack, &two[..37]), &wrong);
+    }
     after_head(
         "[rules]\ngame = \"free-play\"\n",
         "5: rules.game = \"free-play\": rules need players; write [[player]] and kind = \"paper\"",
@@ -380,7 +398,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "[table]\npreset = \"pool-9ft\"\n[cue]\n[balls]\nrack = \"eight-ball\"\n[rules]\ngame = \
          \"paper-eight-ball\"\n[[player]]\nname = \"A\"\nkind = \"paper\"\n",
-        "10: rules.game = \"paper-eight-ball\": eight-ball has two players; write a second \
+        "10: rules.game = \"paper-eight-ball\": paper-eight-ball has two players; write a second \
          [[player]]",
     );
     after_head(
@@ -484,7 +502,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "[table]\npreset = \"pool-9ft\"\n[cue]\n[input]\n[rules]\ngame = \
          \"paper-eight-ball\"\n[[player]]\nname = \"A\"\nkind = \"human\"\n[balls]\nrack = \
          \"nine-ball\"\n",
-        "9: rules.game = \"paper-eight-ball\": eight-ball begins with its rack; write [balls] \
+        "9: rules.game = \"paper-eight-ball\": paper-eight-ball begins with its rack; write [balls] \
          and rack = \"eight-ball\"",
     );
 }

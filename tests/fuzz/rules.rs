@@ -55,6 +55,7 @@ fn check_corners(kind: GameKind, tally: &Tally) {
     met("shuffled", tally.shuffled, 100);
     match kind {
         GameKind::FreePlay => met("draws", tally.draws, 1),
+        GameKind::Training => met("racks", tally.racks, 1),
         GameKind::PaperEightBall => {
             met("fouls", tally.fouls, 100);
             met("wins", tally.wins, 10);

@@ -91,6 +91,7 @@ fn shown(
         table: stage.table.clone(),
         first: Arc::new(cast.simulation.snapshot(0.0)),
         names: cast.names.clone(),
+        game: stage.scene.rules.map(|rules| rules.game),
         speed,
         language: language(),
         stop: stop.clone(),

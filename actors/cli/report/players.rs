@@ -33,6 +33,7 @@ pub fn measure(games: u32) -> Result<Players, Error> {
     let mut players = Players { games, ..Players::default() };
     for game in 0..games {
         let overrides = Overrides {
+            game: None,
             seed: Some(seed_of(stage.scene.about.seed, u64::from(game))),
             first_player: Some(PlayerId(1 + (game % 2) as u8)),
             ..Overrides::default()

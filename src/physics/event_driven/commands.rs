@@ -1,8 +1,8 @@
 //! Commands: what a player or the rules want done.
 
-use super::EventDriven;
 use super::segment::Segment;
 use super::tip::Tip;
+use super::{EventDriven, Lie, Order};
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};
@@ -27,6 +27,13 @@ impl EventDriven {
         unknown.map_or(Ok(()), |ball| Err(PhysicsError::UnknownBall(ball)))
     }
 
+    /// Has something carried out at `at`, after what is due then already.
+    pub(super) fn order(&mut self, at: Seconds, order: Order) {
+        let at = at.max(self.now);
+        let place = self.commands.partition_point(|(other, _)| *other <= at);
+        self.commands.insert(place, (at, order));
+    }
+
     /// Carries a command out.
     pub(super) fn carry_out(&mut self, at: Seconds, command: &Command) -> Result<(), PhysicsError> {
         match command {
@@ -40,8 +47,16 @@ impl EventDriven {
                     self.spot_ball(at, *ball);
                 }
             }
-            // The rules' business.
-            Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
+            Command::Undo => {
+                if let Some(lies) = self.memory.take_back() {
+                    self.lay_all(at, &lies);
+                    if lies.iter().any(Lie::is_cue_ball_on_table) {
+                        self.tell(at, Lie::TAKEN_BACK);
+                    }
+                }
+            }
+            // The rules' business, and [`Simulation`](crate::physics::Simulation)'s.
+            Command::Call(_) | Command::Choose(_) | Command::Rack(_) => {}
         }
         Ok(())
     }
@@ -69,6 +84,9 @@ impl EventDriven {
         let radius = self.bodies[index].ball.radius_m;
         let (bed, pockets) = (self.terrain.bed.as_ref(), &self.terrain.pockets);
         let ok = checks::may_stand(bed, pockets, others, radius, place, zone);
+        if moving {
+            self.begin_shot(at);
+        }
         if ok {
             self.put_down(at, index, place);
         }
@@ -78,17 +96,54 @@ impl EventDriven {
         self.tell(at, FactKind::BallPlaced { ball, zone, ok });
     }
 
+    /// A shot begins, if none is under way.
+    pub(super) fn begin_shot(&mut self, at: Seconds) {
+        let (memory, bodies) = (&mut self.memory, &self.bodies);
+        memory.begin(|| bodies.iter().map(|body| Lie::from(&body.sample(at))).collect());
+    }
+
+    /// A hand takes a ball: its energy leaves the world.
+    fn take_up(&mut self, at: Seconds, index: usize) {
+        if !self.bodies[index].in_play() {
+            return;
+        }
+        self.close_segment(at, index);
+        let body = &self.bodies[index];
+        self.ledger.removed_j += self.energy_of(body, at);
+        if body.ball.flags.integrate {
+            let momentum = body.segment.velocity_at(at) * body.ball.mass_kg;
+            self.ledger.momentum.removed += momentum;
+        }
+    }
+
+    /// Lays balls down together, at rest.
+    pub(super) fn lay_all(&mut self, at: Seconds, lies: &[Lie]) {
+        let known = |lie: &Lie| Some((self.index(lie.ball)?, *lie));
+        let lies: Vec<(usize, Lie)> = lies.iter().filter_map(known).collect();
+        for (index, lie) in &lies {
+            self.take_up(at, *index);
+            let body = &mut self.bodies[*index];
+            body.put(lie.place, at);
+            body.held.clear();
+            body.turn_into(Segment::still(at, lie.position, lie.orientation));
+        }
+        let changed: Vec<usize> = lies.iter().map(|(index, _)| *index).collect();
+        self.touching.retain(|(a, b, _)| !changed.contains(a) && !changed.contains(b));
+        // What one lies on, or beside, is there before it is asked for.
+        for index in &changed {
+            self.lay_down(*index);
+            if self.bodies[*index].in_play() {
+                self.ledger.placed_j += self.weight_j(&self.bodies[*index], at);
+            }
+            self.clear_touched_rails(*index);
+        }
+        self.predict(at, &changed);
+        self.wake_neighbours(at, &changed);
+    }
+
     /// Puts a ball down at rest.
     fn put_down(&mut self, at: Seconds, index: usize, place: DVec2) {
-        if self.bodies[index].in_play() {
-            self.close_segment(at, index);
-            let body = &self.bodies[index];
-            self.ledger.removed_j += self.energy_of(body, at);
-            if body.ball.flags.integrate {
-                let momentum = body.segment.velocity_at(at) * body.ball.mass_kg;
-                self.ledger.momentum.removed += momentum;
-            }
-        }
+        self.take_up(at, index);
         let body = &mut self.bodies[index];
         body.put(BallPlace::OnTable, at);
         let position = place.extend(body.ball.radius_m);

@@ -10,7 +10,7 @@ use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Ledger, tolerance};
+use crate::physics::{Ledger, racks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -222,7 +222,11 @@ impl EventDriven {
         if let Some(tip) = &mut self.tip {
             tip.cue.has_struck = false;
         }
-        self.tell(at, FactKind::Settled { snookered: false, cue_in_rack: false });
+        self.memory.end();
+        let lies = |body: &Body| (body.ball.id, body.in_play(), body.segment.position_at(at));
+        let bed = self.terrain.bed.as_ref();
+        let cue_in_rack = racks::cue_in_rack(bed, self.bodies.iter().map(lies));
+        self.tell(at, FactKind::Settled { snookered: false, cue_in_rack });
     }
 
     pub(super) fn note_track(&mut self, index: usize) {

@@ -231,6 +231,7 @@ impl EventDriven {
         let ball = body.ball.id;
         let point = position - normal * radius;
         let velocity_after = mover.velocity;
+        self.begin_shot(at);
         self.press_on_bed(at, index, &mut mover);
         self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
         let kind = if ball == BallId::CUE {

@@ -1,15 +1,16 @@
 //! Commands: what a player or the rules want done.
 
+use super::body::Body;
 use super::cue_motion::CueMotion;
-use super::{Due, FixedStep, weight_j};
-use crate::ball::{BallPlace, Motion};
+use super::{Due, FixedStep, Lie, Order, collect, weight_j};
+use crate::ball::BallPlace;
 use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
 use crate::rack;
 use crate::units::Seconds;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::sync::Arc;
 
 impl FixedStep {
@@ -30,10 +31,24 @@ impl FixedStep {
         }
     }
 
+    /// Has something carried out at the first grid time from `at` on.
+    pub(super) fn order(&mut self, at: Seconds, order: Order) {
+        let step = self.step_at(at).max(self.step);
+        let place = self.commands.partition_point(|due| due.step <= step);
+        self.commands.insert(place, Due { step, order });
+    }
+
     /// Carries out what is due at the grid time in hand.
     pub(super) fn carry_out_commands(&mut self) {
         while self.commands.front().is_some_and(|due| due.step <= self.step) {
-            let Some(Due { command, .. }) = self.commands.pop_front() else { return };
+            let Some(Due { order, .. }) = self.commands.pop_front() else { return };
+            let command = match order {
+                Order::Command(command) => command,
+                Order::Lay(lies) => {
+                    self.lay_all(&lies);
+                    continue;
+                }
+            };
             match command {
                 Command::MoveCue(path) => self.move_cue(path),
                 Command::LiftCue => self.cue = None,
@@ -41,8 +56,17 @@ impl FixedStep {
                     self.place_ball(ball, position_m, zone);
                 }
                 Command::SpotBalls(balls) => balls.iter().for_each(|ball| self.spot_ball(*ball)),
-                // The rules' business.
-                Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
+                Command::Undo => {
+                    if let Some(lies) = self.memory.take_back() {
+                        self.lay_all(&lies);
+                        if lies.iter().any(Lie::is_cue_ball_on_table) {
+                            let now = self.grid(self.step);
+                            self.tell(now, Lie::TAKEN_BACK);
+                        }
+                    }
+                }
+                // The rules' business, and [`Simulation`](crate::physics::Simulation)'s.
+                Command::Call(_) | Command::Choose(_) | Command::Rack(_) => {}
             }
         }
     }
@@ -63,6 +87,9 @@ impl FixedStep {
         };
         let moving = (0..self.bodies.len()).any(lively);
         let ok = self.may_stand(index, place, zone);
+        if moving {
+            self.begin_shot();
+        }
         if ok {
             self.put_down(index, place);
         }
@@ -87,6 +114,40 @@ impl FixedStep {
 
     /// Puts a ball down at rest.
     fn put_down(&mut self, index: usize, place: DVec2) {
+        let body = &self.bodies[index];
+        let position = place.extend(body.ball.radius_m);
+        let (ball, orientation) = (body.ball.id, body.orientation);
+        self.lay_one(index, &Lie { ball, place: BallPlace::OnTable, position, orientation });
+        self.find_supports(index);
+        self.clear_touched_rails(index);
+    }
+
+    /// A shot begins, if none is under way.
+    pub(super) fn begin_shot(&mut self) {
+        let (memory, bodies) = (&mut self.memory, &self.bodies);
+        let lie = |body: &Body| Lie {
+            ball: body.ball.id,
+            place: body.place,
+            position: body.position,
+            orientation: body.orientation,
+        };
+        memory.begin(|| bodies.iter().map(lie).collect());
+    }
+
+    /// Lays balls down together, at rest.
+    fn lay_all(&mut self, lies: &[Lie]) {
+        let known = |lie: &Lie| Some((self.index(lie.ball)?, *lie));
+        let lies: Vec<(usize, Lie)> = lies.iter().filter_map(known).collect();
+        lies.iter().for_each(|(index, lie)| self.lay_one(*index, lie));
+        // What one lies on, or beside, is there before it is asked for.
+        for (index, _) in lies {
+            self.find_supports(index);
+            self.clear_touched_rails(index);
+        }
+    }
+
+    /// A hand takes a ball and lays it down at rest, or keeps it out of play.
+    fn lay_one(&mut self, index: usize, lie: &Lie) {
         let (now, g) = (self.grid(self.step), self.parameters.gravity_m_s2);
         let body = &mut self.bodies[index];
         if body.in_play() {
@@ -95,18 +156,15 @@ impl FixedStep {
                 self.ledger.momentum.removed += body.velocity * body.ball.mass_kg;
             }
         }
-        body.placed = (body.place, now);
-        body.place = BallPlace::OnTable;
-        body.position = place.extend(body.ball.radius_m);
-        body.velocity = DVec3::ZERO;
-        body.angular_velocity = DVec3::ZERO;
-        body.motion = Motion::Rest;
+        collect(body, lie.place, now);
+        body.position = lie.position;
+        body.orientation = lie.orientation;
         body.way = None;
         body.asleep = false;
-        self.ledger.placed_j += weight_j(body, g);
+        if body.in_play() {
+            self.ledger.placed_j += weight_j(body, g);
+        }
         self.touching.retain(|(a, b)| *a != index && *b != index);
-        self.find_supports(index);
-        self.clear_touched_rails(index);
     }
 
     /// Puts a ball on its spot, or as near behind it as there is room.

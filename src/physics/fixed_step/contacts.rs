@@ -453,6 +453,7 @@ impl FixedStep {
             && (0..self.bodies.len()).any(|place| self.bodies[place].in_play() && lively(place));
         let point = position - normal * self.bodies[index].ball.radius_m;
         let ball = self.bodies[index].ball.id;
+        self.begin_shot();
         self.go_on_from(start, index, tau, &mover);
         let kind = if ball == BallId::CUE {
             FactKind::CueBallStruck {

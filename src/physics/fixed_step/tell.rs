@@ -3,12 +3,13 @@
 //! A ball that lies at a cushion, or two that lie together, touch in every step. That is told when
 //! it begins and, later, only if they meet with some speed.
 
+use super::body::Body;
 use super::{FixedStep, collect, weight_j};
 use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Profile, tolerance};
+use crate::physics::{Profile, racks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -157,7 +158,11 @@ impl FixedStep {
         if let Some(cue) = &mut self.cue {
             cue.guided.has_struck = false;
         }
-        self.tell(now, FactKind::Settled { snookered: false, cue_in_rack: false });
+        self.memory.end();
+        let lies = |body: &Body| (body.ball.id, body.in_play(), body.position);
+        let bed = self.ground.bed.as_ref();
+        let cue_in_rack = racks::cue_in_rack(bed, self.bodies.iter().map(lies));
+        self.tell(now, FactKind::Settled { snookered: false, cue_in_rack });
     }
 
     /// A shot begins here for this ball: it has been away from the rails that it does not touch.

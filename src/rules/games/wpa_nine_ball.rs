@@ -26,6 +26,8 @@ pub const GAME: Game = Game {
     balls: 9,
     ends: "Settled, the 9 is down or it was the third foul in a row",
     in_hand: "Turn, cue ball in hand (break, foul, placement refused)",
+    rack: Some("nine-ball"),
+    players: 2,
     ..Game::USUAL
 };
 

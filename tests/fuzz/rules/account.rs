@@ -278,6 +278,14 @@ impl Account {
         self.check_turn(rest, referee)
     }
 
+    /// In training a hand puts down any ball there is.
+    pub fn put(&mut self, ball: BallId) {
+        if self.all.contains(&ball) && !self.on_table.contains(&ball) {
+            self.on_table.push(ball);
+            self.on_table.sort_unstable();
+        }
+    }
+
     /// Exactly one player is called, and knows how the table stands.
     pub fn check_turn(&mut self, said: &[Event], referee: &Referee) -> Result<(), String> {
         let [Event::Turn(turn)] = said else {

@@ -4,7 +4,7 @@ use super::account::Account;
 use super::play::Tally;
 use super::script::{cushion, down, met, struck};
 use hapticbillard::events::{
-    BallInHand, Call, Choice, Command, Event, Fact, FactKind, Source, Zone,
+    BallInHand, ByPlayer, Call, Choice, Command, Event, Fact, FactKind, Source, Zone,
 };
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId, PocketId, Rail};

@@ -117,6 +117,15 @@ pub fn play(kind: GameKind, judge: Judge, rng: &mut impl Rng) -> Result<Tally, S
         }
         let fact = fact(time_s, what);
         let phase = referee.phase();
+        if let (true, FactKind::BallPlaced { ball, ok, .. }) = (game(kind).is_practice, what) {
+            // What a hand does in the middle of a shot depends on the order, as it must.
+            if phase == Phase::Shooting {
+                continue;
+            }
+            if ok && matches!(phase, Phase::Placing | Phase::Waiting) {
+                account.put(ball);
+            }
+        }
         let sealed = (phase == Phase::Over).then(|| hash_of(&referee));
         if phase != Phase::Shooting {
             before_shot = referee.clone();

@@ -1,0 +1,89 @@
+//! What a person says besides strokes: calls, options, and what is asked for in training.
+
+use super::super::calling::{self, Sight};
+use super::{Human, Stage};
+use crate::events::{Command, Zone};
+use crate::ids::BallId;
+use crate::input::Key;
+
+impl Human {
+    /// Takes an option, if there is one of this number.
+    pub(super) fn pick(&mut self, option: usize) {
+        let turn = self.turn.as_ref().filter(|_| matches!(self.stage, Stage::Choosing));
+        let choice = turn.and_then(|turn| turn.options.get(option).copied());
+        if let (Some(choice), false) = (choice, self.paused) {
+            self.command(Command::Choose(choice));
+        }
+    }
+
+    pub(super) fn call_sight(&self) -> Option<Sight<'_>> {
+        Some(Sight {
+            turn: self.turn.as_deref()?,
+            table: &self.seen,
+            pockets: &self.table.pockets,
+            centre: self.centre,
+            direction: self.aimed_along(),
+        })
+    }
+
+    /// A key that goes to the next thing: ball in hand, pocket, ball, or kind of call.
+    pub(super) fn step(&mut self, letter: Option<char>) {
+        let backwards = self.held.has(Key::Shift);
+        match &self.stage {
+            _ if self.paused => {}
+            Stage::Placing(placing) if self.is_practice && letter.is_none() => {
+                let now = placing.ball;
+                let ids: Vec<BallId> = self.seen.balls.iter().map(|ball| ball.id).collect();
+                if let Some(ball) = calling::next(&ids, Some(now), backwards) {
+                    self.hold(ball, Zone::Anywhere);
+                }
+            }
+            Stage::Aiming => {
+                let mut calling = std::mem::take(&mut self.calling);
+                if let Some(sight) = self.call_sight() {
+                    calling.key(letter, backwards, &sight);
+                }
+                self.calling = calling;
+            }
+            _ => {}
+        }
+    }
+
+    /// Says what the stroke that begins is meant to do.
+    pub(super) fn announce(&mut self) {
+        let mut calling = std::mem::take(&mut self.calling);
+        let call = self.call_sight().and_then(|sight| calling.say(&sight));
+        self.calling = calling;
+        if let Some(call) = call {
+            self.command(Command::Call(call));
+        }
+    }
+
+    /// Training: the last shot was none.
+    pub(super) fn take_shot_back(&mut self) {
+        self.let_go();
+        self.command(Command::Undo);
+    }
+
+    /// Training: takes a ball up, or puts it back where it was.
+    pub(super) fn take_up(&mut self) {
+        let cue_ball = self.cue_ball();
+        match self.stage {
+            Stage::Aiming => {
+                self.command(Command::LiftCue);
+                self.hold(cue_ball, Zone::Anywhere);
+            }
+            Stage::Placing(_) => self.address(),
+            _ => {}
+        }
+    }
+
+    /// The aim has changed: what was chosen by key for another one is forgotten.
+    pub(super) fn follow_with_call(&mut self) {
+        let mut calling = std::mem::take(&mut self.calling);
+        if let Some(sight) = self.call_sight() {
+            calling.follow(&sight);
+        }
+        self.calling = calling;
+    }
+}
