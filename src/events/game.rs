@@ -388,6 +388,7 @@ pub enum Choice {
     PassBack,
     AskAgain,
     Play,
+    PutBack,
 }
 
 /// What the rules say about a shot.
@@ -472,6 +473,9 @@ pub struct Turn {
     /// Snooker: what is on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<BallOn>,
+    /// Snooker: any ball may be nominated as if it were on.
+    #[serde(skip_serializing_if = "is_false")]
+    pub free_ball: bool,
     /// The player has been told that the next foul is the third in a row.
     #[serde(skip_serializing_if = "is_false")]
     pub warned: bool,

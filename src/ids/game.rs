@@ -13,6 +13,8 @@ macro_rules! for_all_games {
             PaperEightBall "paper-eight-ball" "paper8" paper_eight_ball;
             /// Eight-ball by the rules of the WPA.
             WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
+            /// Snooker by the rules of the WPBSA.
+            Snooker "snooker" "snooker" snooker;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
         }

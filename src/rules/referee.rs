@@ -152,6 +152,9 @@ impl Referee {
         self.state = chosen.state;
         self.shot = Shot::of(self.state.cue_ball);
         let mut sayings = Sayings::new();
+        if choice == Choice::PutBack {
+            sayings.push(Event::Command(Command::Undo));
+        }
         if !chosen.spot.is_empty() {
             sayings.push(Event::Command(Command::SpotBalls(chosen.spot)));
         }
@@ -229,8 +232,11 @@ impl Referee {
 
         let mut sayings = Sayings::new();
         sayings.push(Event::Verdict(verdict.clone()));
-        if !verdict.spot.is_empty() && verdict.options.is_empty() {
-            sayings.push(Event::Command(Command::SpotBalls(verdict.spot.clone())));
+        // What only a choice would spot is not on the table yet.
+        let is_back = |ball: &BallId| self.state.on_table.contains(ball);
+        let spot: SmallVec<[BallId; 4]> = verdict.spot.iter().copied().filter(is_back).collect();
+        if !spot.is_empty() {
+            sayings.push(Event::Command(Command::SpotBalls(spot)));
         }
         if let Some(balls) = verdict.rack {
             sayings.push(self.rack(balls));
@@ -265,6 +271,7 @@ impl Referee {
             cue_ball: state.cue_ball,
             score: game(self.game).has_score.then_some(state.score),
             on: state.on,
+            free_ball: state.free_ball,
             warned: state.warned,
         };
         std::iter::once(Event::Turn(Arc::new(turn))).collect()

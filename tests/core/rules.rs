@@ -18,10 +18,11 @@ use serde_json::json;
 use std::sync::Arc;
 
 /// Scenarios of the rule book, a file per game and more.
-const FILES: [&str; 3] = [
+const FILES: [&str; 4] = [
     include_str!("data/rules/paper_eight_ball.json"),
     include_str!("data/rules/paper_eight_ball_more.json"),
     include_str!("data/rules/wpa_eight_ball.json"),
+    include_str!("data/rules/snooker.json"),
 ];
 
 #[test]
