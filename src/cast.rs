@@ -5,9 +5,10 @@
 
 use crate::ai::{Player, PlayerSettings};
 use crate::ball::POOL_RADIUS_M;
-use crate::ids::{BallId, PlayerId};
+use crate::ids::{BallId, GameKind, PlayerId};
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
+use crate::rack::Sight;
 use crate::rules::Referee;
 use crate::scene::{PlayerKind, Scene, SceneError};
 use crate::table::Table;
@@ -68,10 +69,15 @@ impl Cast {
         let parameters = scene.parameters();
         let tip_radius_m = parameters.tip_radius_m;
         let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?;
-        let referee = scene
-            .rules
-            .as_ref()
-            .map(|rules| Referee::new(rules.game).first_player(rules.first_player));
+        let referee = scene.rules.as_ref().map(|rules| {
+            let referee = Referee::new(rules.game).first_player(rules.first_player);
+            match (rules.game, table.bed) {
+                (GameKind::Snooker, Some(bed)) => {
+                    referee.with_sight(Sight { bed, spots: table.spots, radius_m })
+                }
+                _ => referee,
+            }
+        });
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
             if section.kind != PlayerKind::Paper {

@@ -4,7 +4,13 @@
 //! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
 //! exists nor has a unique break.
 
-use crate::ball::{Ball, BallPlace, BallState};
+mod sight;
+mod spots;
+
+pub use sight::{From, Sight};
+pub use spots::Spots;
+
+use crate::ball::{Ball, BallPlace, BallState, POOL_RADIUS_M, SNOOKER_RADIUS_M};
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
 use glam::DVec2;
@@ -41,6 +47,7 @@ pub struct Rack {
 enum Layout {
     EightBall { seed: u64 },
     NineBall { seed: u64 },
+    Snooker { seed: u64 },
     Balls(Vec<(Ball, BallState)>),
 }
 
@@ -58,6 +65,13 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
+    /// Snooker: the colours on their spots, fifteen reds in a triangle whose apex stands as near
+    /// behind the pink as it can (WPBSA, section 3, rule 2). The cue ball stands in the D, in the
+    /// middle between brown and yellow.
+    pub fn snooker(seed: u64) -> Rack {
+        Rack { layout: Layout::Snooker { seed } }
+    }
+
     /// These balls, just as they are.
     pub fn from_balls(balls: Vec<(Ball, BallState)>) -> Rack {
         Rack { layout: Layout::Balls(balls) }
@@ -65,27 +79,57 @@ impl Rack {
 
     /// The balls on this table, in the order of their ids.
     pub fn place(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, RackError> {
-        let (rows, order, mut random) = match &self.layout {
-            Layout::Balls(balls) => return sorted(balls.clone()),
+        let bed = || table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() });
+        match &self.layout {
+            Layout::Balls(balls) => sorted(balls.clone()),
             Layout::EightBall { seed } => {
-                let mut random = Pcg64Mcg::seed_from_u64(*seed);
-                (&[1, 2, 3, 4, 5][..], eight_ball_order(&mut random), random)
+                let (bed, mut random) = (bed()?, Pcg64Mcg::seed_from_u64(*seed));
+                let order = eight_ball_order(&mut random);
+                pool(&bed, &[1, 2, 3, 4, 5], order, random)
             }
             Layout::NineBall { seed } => {
-                let mut random = Pcg64Mcg::seed_from_u64(*seed);
-                (&[1, 2, 3, 2, 1][..], nine_ball_order(&mut random), random)
+                let (bed, mut random) = (bed()?, Pcg64Mcg::seed_from_u64(*seed));
+                let order = nine_ball_order(&mut random);
+                pool(&bed, &[1, 2, 3, 2, 1], order, random)
             }
-        };
-        let bed = table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() })?;
-        let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
-        for (id, place) in order.into_iter().zip(places(rows, &bed)) {
-            let off = DVec2::new(unit(&mut random), unit(&mut random));
-            // A point of a square, drawn into the circle, so that no pair can come too near.
-            let off = off / off.length().max(1.0) * JITTER_MAX_M;
-            balls.push(standing(Ball::pool(BallId(id)), place + off));
+            Layout::Snooker { seed } => snooker(&bed()?, Pcg64Mcg::seed_from_u64(*seed)),
         }
-        sorted(balls)
     }
+}
+
+/// Pool balls in rows from the foot spot, and the cue ball on the head spot.
+fn pool(
+    bed: &Bed,
+    rows: &[u16],
+    order: Vec<u16>,
+    mut random: Pcg64Mcg,
+) -> Result<Vec<(Ball, BallState)>, RackError> {
+    let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
+    for (id, place) in order.into_iter().zip(places(rows, bed.foot_spot(), POOL_RADIUS_M)) {
+        balls.push(standing(Ball::pool(BallId(id)), place + jitter(&mut random)));
+    }
+    sorted(balls)
+}
+
+/// Snooker's 22 balls.
+fn snooker(bed: &Bed, mut random: Pcg64Mcg) -> Result<Vec<(Ball, BallState)>, RackError> {
+    let from_brown = DVec2::new(0.0, -0.5 * bed.d_radius_m());
+    let in_d = Spots::Snooker.of(bed, BallId(18)) + from_brown;
+    let mut balls = vec![standing(Ball::snooker(BallId::CUE), in_d)];
+    for colour in (16..=21).map(BallId) {
+        balls.push(standing(Ball::snooker(colour), Spots::Snooker.of(bed, colour)));
+    }
+    let apex = Spots::Snooker.of(bed, BallId(20)) + DVec2::X * pitch(SNOOKER_RADIUS_M);
+    for (id, place) in (1..=15).zip(places(&[1, 2, 3, 4, 5], apex, SNOOKER_RADIUS_M)) {
+        balls.push(standing(Ball::snooker(BallId(id)), place + jitter(&mut random)));
+    }
+    sorted(balls)
+}
+
+/// A point of a square, drawn into the circle, so that no pair can come too near [m].
+fn jitter(random: &mut Pcg64Mcg) -> DVec2 {
+    let off = DVec2::new(unit(random), unit(random));
+    off / off.length().max(1.0) * JITTER_MAX_M
 }
 
 /// A number from −1 to 1.
@@ -123,11 +167,14 @@ fn nine_ball_order(random: &mut Pcg64Mcg) -> Vec<u16> {
     order
 }
 
-/// Places row by row from the apex on the foot spot towards the foot rail.
-fn places<'a>(rows: &'a [u16], bed: &Bed) -> impl Iterator<Item = DVec2> + 'a {
-    let apex = bed.foot_spot();
-    // Neighbours that both step towards each other still do not overlap.
-    let pitch = 2.0 * (crate::ball::POOL_RADIUS_M + JITTER_MAX_M) + 1e-9;
+/// Distance of racked neighbours [m]: those that both step towards each other do not overlap.
+fn pitch(radius_m: f64) -> f64 {
+    2.0 * (radius_m + JITTER_MAX_M) + 1e-9
+}
+
+/// Places row by row from the apex towards the foot rail.
+fn places(rows: &[u16], apex: DVec2, radius_m: f64) -> impl Iterator<Item = DVec2> {
+    let pitch = pitch(radius_m);
     let row_pitch = 0.75f64.sqrt() * pitch;
     rows.iter().enumerate().flat_map(move |(row, count)| {
         (0..*count).map(move |i| {
@@ -178,10 +225,14 @@ pub fn spot_position(
     occupied: impl Iterator<Item = (DVec2, f64)>,
     radius: f64,
 ) -> DVec2 {
+    nearest_on_line(bed, bed.foot_spot(), &occupied.collect::<Vec<_>>(), radius)
+}
+
+/// The free place nearest behind `spot` on the line to the foot rail, or else nearest before it; the
+/// spot itself if it is free, or if the whole line is full. All in metres.
+fn nearest_on_line(bed: &Bed, spot: DVec2, occupied: &[(DVec2, f64)], radius: f64) -> DVec2 {
     // A spotted ball stands as close as can be without touching.
     let gap = 1e-6;
-    let occupied: Vec<(DVec2, f64)> = occupied.collect();
-    let spot = bed.foot_spot();
     let is_free = |x: f64| {
         let here = DVec2::new(x, spot.y);
         bed.holds(here, radius)
@@ -189,7 +240,7 @@ pub fn spot_position(
     };
     // The nearest free place is the spot itself or touches one of the balls.
     let mut candidates = vec![spot.x];
-    for (place, other) in &occupied {
+    for (place, other) in occupied {
         let reach = radius + other + gap;
         let off = place.y - spot.y;
         let half = (reach * reach - off * off).max(0.0).sqrt();

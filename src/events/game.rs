@@ -181,6 +181,17 @@ pub enum BallOn {
     Ball(BallId),
 }
 
+impl BallOn {
+    /// Whether a ball of snooker is on, if any colour will do where one must be nominated.
+    pub fn is(self, ball: BallId) -> bool {
+        match self {
+            BallOn::Red => (1..=15).contains(&ball.0),
+            BallOn::Colour => (16..=21).contains(&ball.0),
+            BallOn::Ball(on) => ball == on,
+        }
+    }
+}
+
 impl Serialize for BallOn {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

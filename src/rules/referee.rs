@@ -9,6 +9,7 @@ use super::phase::{Phase, Signal};
 use super::shot::{Shot, watch};
 use super::state::State;
 use super::{legal_first, topics};
+use crate::ball::BallState;
 use crate::events::{
     BallInHand, Call, CallKind, Choice, Command, Event, Fact, FactKind, Racked, Racking, Source,
     Topic, Topics, Turn, TurnAfter, Verdict, Zone,
@@ -17,6 +18,7 @@ use crate::hash::StateHash;
 use crate::ids::GameKind;
 use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
+use crate::rack::{From, Sight};
 use crate::tick::{Delivered, Outcome, Participant};
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -40,6 +42,8 @@ pub struct Referee {
     /// Racks of this game so far, the first not counted.
     racks: u32,
     verdict: Option<Arc<Verdict>>,
+    /// What it takes to see whether the next player is snookered, where that matters.
+    sight: Option<Sight>,
 }
 
 impl Referee {
@@ -61,6 +65,7 @@ impl Referee {
             shot_number: 1,
             racks: 0,
             verdict: None,
+            sight: None,
         }
     }
 
@@ -74,6 +79,14 @@ impl Referee {
     #[must_use]
     pub fn first_player(mut self, player: PlayerId) -> Self {
         self.state.player = player;
+        self
+    }
+
+    /// Lets it see whether a foul leaves the next player snookered. Without that it believes what
+    /// [`FactKind::Settled`] says.
+    #[must_use]
+    pub fn with_sight(mut self, sight: Sight) -> Self {
+        self.sight = Some(sight);
         self
     }
 
@@ -222,6 +235,19 @@ impl Referee {
         }
     }
 
+    /// The fact, and if everything is at rest whether the next player is snookered: physics knows
+    /// where balls lie but not which are on, nor which return to their spots.
+    fn seen(&self, fact: &Fact, table: &Snapshot) -> Fact {
+        let (Some(sight), FactKind::Settled { snookered: false }) = (&self.sight, fact.kind) else {
+            return *fact;
+        };
+        let mut shot = self.shot.clone();
+        watch(&mut shot, fact);
+        let verdict = (self.judge)(&self.state, self.call.as_ref(), &shot);
+        let snookered = !verdict.legal && is_snookered(sight, &self.state, &verdict, table);
+        Fact { kind: FactKind::Settled { snookered }, ..*fact }
+    }
+
     fn end_shot(&mut self) -> Sayings {
         let shot = std::mem::take(&mut self.shot);
         let call = self.call.take();
@@ -301,7 +327,10 @@ impl Participant for Referee {
         let mut sayings = Sayings::new();
         for stamped in delivered.events.iter() {
             match &stamped.event {
-                Event::Fact(fact) => sayings.extend(self.handle(fact)),
+                Event::Fact(fact) => {
+                    let fact = self.seen(fact, &delivered.table);
+                    sayings.extend(self.handle(&fact));
+                }
                 Event::Command(command) => {
                     sayings.extend(self.obey(stamped.stamp.source, command));
                 }
@@ -328,6 +357,25 @@ impl Participant for Referee {
             }
         });
     }
+}
+
+/// Whether a verdict leaves the next player without a ball on to be hit in a straight line.
+fn is_snookered(sight: &Sight, state: &State, verdict: &Verdict, table: &Snapshot) -> bool {
+    let lies = |ball: &BallState| (ball.id, ball.position.truncate());
+    let (cue_ball, lying): (Vec<_>, Vec<_>) =
+        table.on_table().map(lies).partition(|(id, _)| *id == state.cue_ball);
+    let from = match (verdict.ball_in_hand, cue_ball.first()) {
+        (BallInHand::None, Some((_, place))) => From::Here(*place),
+        (BallInHand::D, _) => From::D,
+        // From anywhere on the bed something can always be hit.
+        _ => return false,
+    };
+    let stays = match from {
+        From::Here(place) => Some(place),
+        From::D => None,
+    };
+    let balls = sight.with_spotted(&lying, stays, &verdict.spot);
+    sight.is_snookered(from, &balls, |ball| verdict.ball_on_next.is_some_and(|on| on.is(ball)))
 }
 
 fn say(sayings: Sayings) -> Outcome {

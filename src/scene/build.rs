@@ -4,8 +4,8 @@ use super::PlayerId;
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::physics::Parameters;
-use crate::rack::Rack;
+use crate::physics::{Equipment, Parameters};
+use crate::rack::{Rack, Spots};
 use crate::table::Table;
 use glam::{DQuat, DVec3};
 
@@ -23,6 +23,9 @@ impl Scene {
             })?,
             None => Table { name: self.about.name.clone(), ..Table::default() },
         };
+        if self.equipment() == Equipment::Snooker {
+            table.spots = Spots::Snooker;
+        }
         table.planes.extend_from_slice(&self.planes);
         for section in &self.boxes {
             table.mesh.append(&box_mesh(section));
@@ -52,6 +55,7 @@ impl Scene {
             let rack = match section.rack {
                 RackKind::EightBall => Rack::eight_ball(seed),
                 RackKind::NineBall => Rack::nine_ball(seed),
+                RackKind::Snooker => Rack::snooker(seed),
             };
             balls = rack.place(table).map_err(|error| {
                 let (found, fix) = (section.rack.name(), "write [table] and preset = \"pool-9ft\"");
@@ -90,9 +94,14 @@ impl Scene {
         Ok(balls)
     }
 
+    /// What the scene's rack is played with; pool's without one.
+    pub fn equipment(&self) -> Equipment {
+        self.balls.as_ref().map_or(Equipment::Pool, |balls| balls.rack.equipment())
+    }
+
     /// The numbers of the contact laws, with those of the scene's own cue.
     pub fn parameters(&self) -> Parameters {
-        let mut parameters = Parameters::of(&self.physics);
+        let mut parameters = Parameters::with_equipment(&self.physics, self.equipment());
         if let Some(cue) = &self.cue {
             cue.apply(&mut parameters);
         }

@@ -169,6 +169,14 @@ fn game(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
             return wrong("eight-ball has two players", "write a second [[player]]");
         }
     }
+    if rules.game == GameKind::Snooker {
+        if rack != Some(RackKind::Snooker) {
+            return wrong("snooker begins with its rack", "write [balls] and rack = \"snooker\"");
+        }
+        if scene.players.len() != 2 {
+            return wrong("snooker has two players", "write a second [[player]]");
+        }
+    }
     Ok(())
 }
 
