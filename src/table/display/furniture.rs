@@ -17,14 +17,17 @@ const ROUND_CHORDS: usize = 28;
 
 /// All of it.
 pub(super) fn parts(table: &TableParameters) -> Vec<DisplayPart> {
-    vec![
+    let mut parts = vec![
         smooth::part("castings", Material::Casting, &castings(table)),
         smooth::part("diamonds", Material::Diamond, &diamonds(table)),
         smooth::part("marks", Material::Line, &marks(table)),
         smooth::part("apron", Material::DarkWood, &apron(table)),
         smooth::part("legs", Material::DarkWood, &legs(table)),
         smooth::part("floor", Material::Floor, &floor(table)),
-    ]
+    ];
+    // A snooker table has no diamonds.
+    parts.retain(|part| !part.indices.is_empty());
+    parts
 }
 
 /// Adds the strip between two lines, seen from the side where `upper` lies left of `lower`.
