@@ -20,6 +20,8 @@ pub struct Account {
     all: Vec<BallId>,
     /// Those on the table.
     pub on_table: Vec<BallId>,
+    /// The same before the last shot.
+    before: Vec<BallId>,
     pub groups: Option<Groups>,
     /// Who must act: shoot, or choose.
     pub player: PlayerId,
@@ -76,6 +78,7 @@ impl Account {
             judge,
             all: (1..=game(kind).balls).map(BallId).collect(),
             on_table: (1..=game(kind).balls).map(BallId).collect(),
+            before: Vec::new(),
             groups: None,
             player: PlayerId::ONE,
             is_break: true,
@@ -129,7 +132,9 @@ impl Account {
         let may_change = is_racked || self.groups == Some(Groups::Open);
         require(may_change || verdict.groups == self.groups, "groups changed")?;
         self.groups = verdict.groups;
-        let spots = verdict.options.is_empty();
+        // In snooker colours are spotted before anybody chooses.
+        let spots = verdict.options.is_empty() || self.kind == GameKind::Snooker;
+        self.before.clone_from(&self.on_table);
         self.move_balls(&fate, verdict, spots)?;
         require(referee.state().on_table.as_slice() == self.on_table, "balls are miscounted")?;
         self.check_score(verdict, referee)?;
@@ -216,7 +221,9 @@ impl Account {
     fn move_balls(&mut self, fate: &Fate, verdict: &Verdict, spots: bool) -> Result<(), String> {
         let is_gone = |ball: &BallId| fate.fell(*ball) || fate.left(*ball);
         for ball in &verdict.spot {
-            require(is_gone(ball), "a ball is spotted that was not gone")?;
+            // After a tie snooker's black goes to its spot from wherever it lies.
+            let is_tied = self.kind == GameKind::Snooker && self.on_table == [*ball];
+            require(is_gone(ball) || is_tied, "a ball is spotted that was not gone")?;
         }
         self.on_table.retain(|ball| !is_gone(ball));
         if spots {
@@ -251,6 +258,11 @@ impl Account {
         tally: &mut Tally,
     ) -> Result<(), String> {
         let mut rest = said;
+        if let [Event::Command(Command::Undo), more @ ..] = rest {
+            require(self.kind == GameKind::Snooker, "balls are put back")?;
+            self.on_table.clone_from(&self.before);
+            rest = more;
+        }
         if let [Event::Command(Command::SpotBalls(balls)), more @ ..] = rest {
             for ball in balls {
                 require(!self.on_table.contains(ball), "a ball is spotted that lies there")?;
