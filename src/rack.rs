@@ -66,7 +66,7 @@ impl Rack {
     }
 
     /// Snooker: the colours on their spots, fifteen reds in a triangle whose apex stands as near
-    /// behind the pink as it can (WPBSA, section 3, rule 2). The cue ball stands in the D, in the
+    /// behind the pink as it can (rules of the WPBSA). The cue ball stands in the D, in the
     /// middle between brown and yellow.
     pub fn snooker(seed: u64) -> Rack {
         Rack { layout: Layout::Snooker { seed } }
@@ -228,8 +228,8 @@ pub fn spot_position(
     nearest_on_line(bed, bed.foot_spot(), &occupied.collect::<Vec<_>>(), radius)
 }
 
-/// The free place nearest behind `spot` on the line to the foot rail, or else nearest before it; the
-/// spot itself if it is free, or if the whole line is full. All in metres.
+/// The free place nearest behind `spot` on the line to the foot rail, or else nearest before it;
+/// the spot itself if it is free, or if the whole line is full. All in metres.
 fn nearest_on_line(bed: &Bed, spot: DVec2, occupied: &[(DVec2, f64)], radius: f64) -> DVec2 {
     // A spotted ball stands as close as can be without touching.
     let gap = 1e-6;

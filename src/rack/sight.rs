@@ -54,7 +54,7 @@ impl Sight {
     }
 
     /// Whether no ball on can be hit in a straight line on both its edges, balls on not counted as
-    /// obstacles (WPBSA, section 2, "snookered"). Cushions do not snooker. Nobody is snookered when
+    /// obstacles (rules of the WPBSA). Cushions do not snooker. Nobody is snookered when
     /// nothing is on.
     ///
     /// From the D it is tried from a grid of places, so a window of a few millimetres may be

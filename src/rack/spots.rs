@@ -41,7 +41,8 @@ impl Spots {
     ///
     /// In pool see [`spot_position`]. A colour of snooker goes to its own spot; if that is occupied
     /// to the free spot of the highest value; if all are, as near to its own spot as possible on
-    /// the line to the top cushion, or else on the line away from it (WPBSA, section 3, rule 7).
+    /// the line to the top cushion, or else on the line away from it (rules of the WPBSA on
+    /// spotting colours).
     pub fn place(self, bed: &Bed, ball: BallId, occupied: &[(DVec2, f64)], radius_m: f64) -> DVec2 {
         if self == Spots::Foot || !COLOURS.contains(&ball.0) {
             return spot_position(bed, occupied.iter().copied(), radius_m);
@@ -55,7 +56,7 @@ impl Spots {
     }
 
     /// The order in which balls are spotted. In snooker those whose own spots are free come first,
-    /// then the others from the highest value down (WPBSA, section 3, rule 7).
+    /// then the others from the highest value down (rules of the WPBSA on spotting colours).
     pub fn in_order(
         self,
         bed: &Bed,

@@ -39,7 +39,7 @@ fn place(ball: BallId, occupied: &[DVec2]) -> DVec2 {
     Spots::Snooker.place(&BED, ball, &occupied, R)
 }
 
-/// WPBSA, section 1: the numbers of the rules, in millimetres, to the rounding of the inch.
+/// WPBSA: the numbers of the rules, in millimetres, to the rounding of the inch.
 #[test]
 fn line_d_and_spots_lie_where_the_rules_say() {
     let near = |value: f64, rule: f64| assert!((value - rule).abs() < 0.5e-3, "{value} {rule}");

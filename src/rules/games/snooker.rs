@@ -1,4 +1,4 @@
-//! Snooker, by the rules of the WPBSA (section 3 of its rule book). One function per rule.
+//! Snooker, by the rules of the WPBSA. One function per rule.
 //!
 //! Where the rule book leaves room, or a referee's ear would be needed:
 //! - Who nominates nothing nominates the ball that the cue ball meets first. Where a colour is on
