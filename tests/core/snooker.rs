@@ -402,8 +402,8 @@ fn the_referee_sees_who_is_snookered() {
         let said: Vec<Event> = outcome.publish.into_iter().map(|p| p.event).collect();
         verdict(&said).free_ball
     };
-    let behind_black = own(BLACK) + DVec2::X * 4.0 * R;
-    let (here, beside) = (Some(DVec2::ZERO), Some(DVec2::new(1.2, 0.5)));
+    let behind_black = own(BLACK) + DVec2::X * 6.0 * R;
+    let (here, beside) = (Some(DVec2::ZERO), Some(behind_black + DVec2::Y * 0.5));
     let fell = [MISS, BLACK_FELL];
     assert!(free(true, &fell, balls(here, behind_black, None)), "the black returns into the way");
     assert!(!free(true, &fell, balls(beside, behind_black, None)), "and here it does not");
