@@ -4,6 +4,8 @@
 //! `cd tests/fuzz/coverage && mkdir -p corpus/rules && cargo run --release --bin rules -- corpus/rules -max_total_time=600`
 
 #![no_main]
+// The modules are those of the seeded test, which uses more of them.
+#![allow(dead_code)]
 
 #[path = "../facts.rs"]
 mod facts;
