@@ -39,7 +39,8 @@ pub enum Command {
 /// Which balls are racked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Racking {
-    /// Counts the racks of a game from 0, which the game began with: each stands a little otherwise.
+    /// Counts the racks of a game from 0, which the game began with: each stands a little
+    /// otherwise.
     pub serial: u32,
     /// All of them, or those that fell.
     pub balls: Racked,

@@ -42,6 +42,8 @@ pub struct Referee {
     /// Racks of this game so far, the first not counted.
     racks: u32,
     verdict: Option<Arc<Verdict>>,
+    /// Balls are put back: that the cue ball lies then is nobody's placement.
+    is_put_back: bool,
     /// What it takes to see whether the next player is snookered, where that matters.
     sight: Option<Sight>,
 }
@@ -65,6 +67,7 @@ impl Referee {
             shot_number: 1,
             racks: 0,
             verdict: None,
+            is_put_back: false,
             sight: None,
         }
     }
@@ -165,7 +168,8 @@ impl Referee {
         self.state = chosen.state;
         self.shot = Shot::of(self.state.cue_ball);
         let mut sayings = Sayings::new();
-        if choice == Choice::PutBack {
+        self.is_put_back = choice == Choice::PutBack;
+        if self.is_put_back {
             sayings.push(Event::Command(Command::Undo));
         }
         if !chosen.spot.is_empty() {
@@ -190,11 +194,17 @@ impl Referee {
             Phase::Opening | Phase::Choosing | Phase::Over => Sayings::new(),
 
             Phase::Placing | Phase::Waiting => match fact.kind {
+                FactKind::BallPlaced { ball, .. }
+                    if ball == self.state.cue_ball && std::mem::take(&mut self.is_put_back) =>
+                {
+                    Sayings::new()
+                }
                 FactKind::BallPlaced { ball, zone, ok } if ball == self.state.cue_ball => {
                     watch(&mut self.shot, fact);
                     self.take_placement(zone, ok)
                 }
                 FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. } => {
+                    self.is_put_back = false;
                     watch(&mut self.shot, fact);
                     self.go(Signal::ShotBegan);
                     Sayings::new()
@@ -347,6 +357,7 @@ impl Participant for Referee {
         self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
         hash.u64(self.racks.into());
+        hash.u64(self.is_put_back.into());
         hash.u64(match self.call {
             None => 0,
             Some(Call::Kind(CallKind::Safety)) => 1,

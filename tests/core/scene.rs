@@ -1,6 +1,6 @@
 //! Every way to get a scene wrong, and the exact line that says so.
 
-use hapticbillard::ids::BallId;
+use hapticbillard::ids::{BallId, GameKind};
 use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
 
 /// The smallest scene: what most of the wrong ones begin with.
@@ -360,10 +360,13 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
         "7: balls.rack = \"bagatelle\": this build knows \"eight-ball\", \"nine-ball\", \
          \"snooker\"; write for example rack = \"eight-ball\"",
     );
+    let games = GameKind::ALL.map(|game| format!("\"{}\"", game.id())).join(", ");
     after_head(
-        "[rules]\ngame = \"wpa-nine-ball\"\n",
-        "5: rules.game = \"wpa-nine-ball\": this build knows \"paper-eight-ball\", \
-         \"free-play\"; write for example game = \"paper-eight-ball\"",
+        "[rules]\ngame = \"bagatelle\"\n",
+        &format!(
+            "5: rules.game = \"bagatelle\": this build knows {games}; write for example game = \
+             \"paper-eight-ball\""
+        ),
     );
     after_head(
         "[rules]\ngame = \"free-play\"\n",

@@ -295,6 +295,14 @@ fn after_a_miss_the_balls_may_be_put_back() {
     assert_eq!(back.score.unwrap().of(PlayerId::TWO), 7, "the penalty stays");
     assert!(back.options.is_empty() && back.calls.ball);
 
+    // That physics tells where the cue ball lies again is no placement of the offender.
+    let mut returned = referee.clone();
+    returned.obey(Source::Input, &Command::Choose(Choice::PutBack));
+    let lies = fact(r#"{"t":9,"e":"place","ball":"0","zone":"anywhere","ok":true}"#);
+    assert!(returned.handle(&lies).is_empty());
+    let met_blue = r#"{"t":1,"e":"hit","a":"0","b":"19"}"#;
+    assert!(verdict(&shot(&mut returned, &[met_blue])).legal);
+
     let (said, again) = ask(Choice::AskAgain);
     assert_eq!(said.len(), 1);
     assert_eq!((again.player, again.on), (PlayerId::ONE, Some(BallOn::Red)));
