@@ -357,7 +357,10 @@ impl Participant for Referee {
         self.shot.hash_into(hash);
         hash.u64(self.shot_number.into());
         hash.u64(self.racks.into());
-        hash.u64(self.is_put_back.into());
+        // Other games never do that, and keep their hashes.
+        if self.is_put_back {
+            hash.u64(1);
+        }
         hash.u64(match self.call {
             None => 0,
             Some(Call::Kind(CallKind::Safety)) => 1,

@@ -259,7 +259,6 @@ impl State {
         hash.u64(self.nominated.map_or(0, |ball| 1 + u64::from(ball.0)));
         hash.u64(self.cue_ball.0.into());
         hash_list(hash, self.options.iter().map(|choice| *choice as u64));
-        hash.u64(self.missed.is_some().into());
         if let Some(missed) = &self.missed {
             hash_list(hash, missed.on_table.iter().map(|ball| ball.0.into()));
             hash.u64(code_of(missed.on));
