@@ -11,6 +11,7 @@ pub use sight::{From, Sight};
 pub use spots::Spots;
 
 use crate::ball::{Ball, BallPlace, BallState, POOL_RADIUS_M, SNOOKER_RADIUS_M};
+use crate::events::Zone;
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
 use glam::DVec2;
@@ -113,9 +114,7 @@ fn pool(
 
 /// Snooker's 22 balls.
 fn snooker(bed: &Bed, mut random: Pcg64Mcg) -> Result<Vec<(Ball, BallState)>, RackError> {
-    let from_brown = DVec2::new(0.0, -0.5 * bed.d_radius_m());
-    let in_d = Spots::Snooker.of(bed, BallId(18)) + from_brown;
-    let mut balls = vec![standing(Ball::snooker(BallId::CUE), in_d)];
+    let mut balls = vec![standing(Ball::snooker(BallId::CUE), bed.home(Zone::D))];
     for colour in (16..=21).map(BallId) {
         balls.push(standing(Ball::snooker(colour), Spots::Snooker.of(bed, colour)));
     }

@@ -207,6 +207,15 @@ impl Bed {
         DVec2::new(self.head_string_x(), 0.0)
     }
 
+    /// Where a ball in hand is held at first [m]: over the head spot; for the D on the baulk line, in
+    /// the middle between the brown and the yellow ball's spots.
+    pub fn home(&self, zone: Zone) -> DVec2 {
+        match zone {
+            Zone::D => DVec2::new(self.baulk_line_x(), -0.5 * self.d_radius_m()),
+            Zone::Anywhere | Zone::Kitchen => self.head_spot(),
+        }
+    }
+
     /// Whether a place on the bed lies in a zone.
     pub fn in_zone(&self, zone: Zone, place: DVec2) -> bool {
         let middle = DVec2::new(self.baulk_line_x(), 0.0);

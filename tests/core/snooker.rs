@@ -62,6 +62,7 @@ fn the_d_is_a_half_circle_behind_the_line() {
     assert!(inside(-0.7 * radius, 0.7 * radius));
     assert!(!inside(0.001, 0.0) && !inside(-0.001, radius) && !inside(-1.01 * radius, 0.0));
     assert!(!inside(-0.72 * radius, 0.72 * radius));
+    assert!(BED.in_zone(Zone::D, BED.home(Zone::D)));
 }
 
 #[test]
