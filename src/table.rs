@@ -9,6 +9,8 @@
 
 mod parameters;
 
+mod marks;
+
 mod plan;
 
 mod flat;
@@ -26,6 +28,7 @@ mod display;
 mod trim;
 
 pub use display::{DisplayPart, Material};
+pub use marks::{ClothMarks, HALF_LINE_M, SPOT_RADIUS_M};
 pub use parameters::{Marks, PocketParameters, TableParameters};
 
 use crate::events::Zone;

@@ -1,10 +1,8 @@
 //! What no ball touches: castings, diamonds, marks, apron, legs and the floor.
 
 use super::{DisplayPart, DisplayTriangle, Material, smooth};
-use crate::ids::BallId;
-use crate::rack::Spots;
-use crate::table::Bed;
-use crate::table::parameters::{Marks, PocketParameters, TableParameters};
+use crate::table::marks::{HALF_LINE_M, SPOT_RADIUS_M};
+use crate::table::parameters::{PocketParameters, TableParameters};
 use crate::table::plan::{Detail, corner_centre, direction, rim_radius, side_centre};
 use crate::table::quarter::outline;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -148,56 +146,33 @@ fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     triangles
 }
 
-/// Half the width of a line on the cloth, and the radius of a spot [m].
-const HALF_LINE_M: f64 = 0.0008;
-const SPOT_RADIUS_M: f64 = 0.006;
-/// The colours of snooker, each of which has a spot.
-const SNOOKER_SPOTS: [u16; 6] = [16, 17, 18, 19, 20, 21];
-
 /// The line across the bed, the spots, and in snooker the D.
 fn marks(table: &TableParameters) -> Vec<DisplayTriangle> {
-    let bed = Bed { length_m: table.length_m, width_m: table.width_m };
-    match table.marks {
-        Marks::Pool => {
-            let mut triangles = line_across(&bed, bed.head_string_x());
-            spots(&mut triangles, &[bed.foot_spot(), bed.head_spot()]);
-            triangles
-        }
-        Marks::Snooker => {
-            let mut triangles = line_across(&bed, bed.baulk_line_x());
-            let [inner, outer] = [-HALF_LINE_M, HALF_LINE_M].map(|off| d_line(&bed, off));
-            strip(&mut triangles, &outer, &inner);
-            spots(&mut triangles, &SNOOKER_SPOTS.map(|id| Spots::Snooker.of(&bed, BallId(id))));
-            triangles
-        }
-    }
-}
-
-fn line_across(bed: &Bed, x: f64) -> Vec<DisplayTriangle> {
-    let y = 0.5 * bed.width_m;
-    let end = |x: f64| [-y, 0.0, y].map(|y| DVec3::new(x, y, MARK_LIFT_M));
+    let marks = table.cloth_marks();
+    let (x, y) = (marks.line_x_m, 0.5 * table.width_m);
+    let across = |x: f64| [-y, 0.0, y].map(|y| DVec3::new(x, y, MARK_LIFT_M));
     let mut triangles = Vec::new();
-    strip(&mut triangles, &end(x + HALF_LINE_M), &end(x - HALF_LINE_M));
+    strip(&mut triangles, &across(x + HALF_LINE_M), &across(x - HALF_LINE_M));
+    if let Some(radius) = marks.d_radius_m {
+        let arc = |radius: f64| half_circle(DVec2::new(x, 0.0), radius);
+        strip(&mut triangles, &arc(radius + HALF_LINE_M), &arc(radius - HALF_LINE_M));
+    }
+    for spot in marks.spots {
+        // The spots lie on the line.
+        let lift = 1.5 * MARK_LIFT_M;
+        fan(&mut triangles, spot.extend(lift), &circle(spot, SPOT_RADIUS_M, lift));
+    }
     triangles
 }
 
-/// The half circle of the D, a little wider or narrower, anticlockwise from above.
-fn d_line(bed: &Bed, off: f64) -> Vec<DVec3> {
-    let middle = DVec2::new(bed.baulk_line_x(), 0.0);
+/// A half circle towards −x, anticlockwise from above.
+fn half_circle(centre: DVec2, radius: f64) -> Vec<DVec3> {
     (0..=ROUND_CHORDS)
         .map(|k| {
             let angle = PI * (0.5 + k as f64 / ROUND_CHORDS as f64);
-            (middle + (bed.d_radius_m() + off) * direction(angle)).extend(MARK_LIFT_M)
+            (centre + radius * direction(angle)).extend(MARK_LIFT_M)
         })
         .collect()
-}
-
-fn spots(triangles: &mut Vec<DisplayTriangle>, places: &[DVec2]) {
-    for spot in places {
-        // The spots lie on the line.
-        let lift = 1.5 * MARK_LIFT_M;
-        fan(triangles, spot.extend(lift), &circle(*spot, SPOT_RADIUS_M, lift));
-    }
 }
 
 /// A closed circle, anticlockwise from above.
