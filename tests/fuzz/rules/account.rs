@@ -20,8 +20,8 @@ pub struct Account {
     all: Vec<BallId>,
     /// Those on the table.
     pub on_table: Vec<BallId>,
-    /// The same before the last shot.
-    before: Vec<BallId>,
+    /// The cue ball is put back: that it lies then is nobody's placement.
+    pub awaits_return: bool,
     pub groups: Option<Groups>,
     /// Who must act: shoot, or choose.
     pub player: PlayerId,
@@ -78,7 +78,7 @@ impl Account {
             judge,
             all: (1..=game(kind).balls).map(BallId).collect(),
             on_table: (1..=game(kind).balls).map(BallId).collect(),
-            before: Vec::new(),
+            awaits_return: false,
             groups: None,
             player: PlayerId::ONE,
             is_break: true,
@@ -134,9 +134,13 @@ impl Account {
         self.groups = verdict.groups;
         // In snooker colours are spotted before anybody chooses.
         let spots = verdict.options.is_empty() || self.kind == GameKind::Snooker;
-        self.before.clone_from(&self.on_table);
+        self.awaits_return = false;
+        let before = self.on_table.clone();
         self.move_balls(&fate, verdict, spots)?;
         require(referee.state().on_table.as_slice() == self.on_table, "balls are miscounted")?;
+        let missed = referee.state().missed.as_ref();
+        let is_kept = missed.is_none_or(|missed| missed.on_table.as_slice() == before);
+        require(is_kept, "other balls would be put back than lay there")?;
         self.check_score(verdict, referee)?;
         self.is_break = is_racked;
         self.shot_number += 1;
@@ -259,8 +263,11 @@ impl Account {
     ) -> Result<(), String> {
         let mut rest = said;
         if let [Event::Command(Command::Undo), more @ ..] = rest {
-            require(self.kind == GameKind::Snooker, "balls are put back")?;
-            self.on_table.clone_from(&self.before);
+            let Some(missed) = &self.state.missed else {
+                return Err("balls are put back after no miss".into());
+            };
+            self.on_table = missed.on_table.to_vec();
+            self.awaits_return = true;
             rest = more;
         }
         if let [Event::Command(Command::SpotBalls(balls)), more @ ..] = rest {
