@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 pub const POOL_RADIUS_M: f64 = 0.028575;
 /// Mass of a pool ball [kg].
 pub const POOL_MASS_KG: f64 = 0.17;
+/// Radius of a snooker ball [m]: 52.5 mm across (WPBSA).
+pub const SNOOKER_RADIUS_M: f64 = 0.02625;
+/// Mass of a snooker ball [kg] (Mathavan, Jackson, Parkin 2009).
+pub const SNOOKER_MASS_KG: f64 = 0.1406;
 /// Moment of inertia of a solid sphere over m R².
 pub const SOLID_SPHERE: f64 = 0.4;
 
@@ -40,6 +44,11 @@ impl Ball {
             flags: BallFlags::default(),
             spring: None,
         }
+    }
+
+    /// A snooker ball.
+    pub fn snooker(id: BallId) -> Self {
+        Ball { radius_m: SNOOKER_RADIUS_M, mass_kg: SNOOKER_MASS_KG, ..Ball::pool(id) }
     }
 
     /// Moment of inertia [kg m²].

@@ -5,9 +5,10 @@
 
 use crate::ai::{Player, PlayerSettings};
 use crate::ball::POOL_RADIUS_M;
-use crate::ids::{BallId, PlayerId};
+use crate::ids::{BallId, GameKind, PlayerId};
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
+use crate::rack::Sight;
 use crate::rules::{Referee, UNDO_SHOTS, game};
 use crate::scene::{PlayerKind, Scene, SceneError};
 use crate::table::Table;
@@ -73,13 +74,22 @@ impl Cast {
         let simulation = match (is_practice, scene.rules) {
             (_, None) => simulation,
             (true, Some(_)) => simulation.with_memory(UNDO_SHOTS),
+            // Balls may be put back after a miss.
+            (false, Some(rules)) if rules.game == GameKind::Snooker => {
+                simulation.with_object_balls_left_alone().with_memory(1)
+            }
             (false, Some(_)) => simulation.with_object_balls_left_alone(),
         };
-        let referee = scene
-            .rules
-            .as_ref()
-            .map(|rules| Referee::new(rules.game).first_player(rules.first_player))
-            .map(|referee| if scene.players.len() == 1 { referee.alone() } else { referee });
+        let referee = scene.rules.as_ref().map(|rules| {
+            let referee = Referee::new(rules.game).first_player(rules.first_player);
+            let referee = if scene.players.len() == 1 { referee.alone() } else { referee };
+            match (rules.game, table.bed) {
+                (GameKind::Snooker, Some(bed)) => {
+                    referee.with_sight(Sight { bed, spots: table.spots, radius_m })
+                }
+                _ => referee,
+            }
+        });
         let mut players = Vec::new();
         for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
             if section.kind != PlayerKind::Paper {

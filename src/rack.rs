@@ -5,10 +5,15 @@
 //! exists nor has a unique break.
 
 mod next;
+mod sight;
+mod spots;
 
 pub use next::{CueBallGoes, NextRack, next_rack};
+pub use sight::{From, Sight};
+pub use spots::Spots;
 
-use crate::ball::{Ball, BallPlace, BallState};
+use crate::ball::{Ball, BallPlace, BallState, POOL_RADIUS_M, SNOOKER_RADIUS_M};
+use crate::events::Zone;
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
 use glam::DVec2;
@@ -45,6 +50,7 @@ pub struct Rack {
 enum Layout {
     EightBall { seed: u64 },
     NineBall { seed: u64 },
+    Snooker { seed: u64 },
     Balls(Vec<(Ball, BallState)>),
 }
 
@@ -62,6 +68,13 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
+    /// Snooker: the colours on their spots, fifteen reds in a triangle whose apex stands as near
+    /// behind the pink as it can (rules of the WPBSA). The cue ball stands in the D, in the
+    /// middle between brown and yellow.
+    pub fn snooker(seed: u64) -> Rack {
+        Rack { layout: Layout::Snooker { seed } }
+    }
+
     /// The rack that is set up in the same way for the `serial`-th time, counted from 0: each
     /// stands a little otherwise. Balls that were listed lie as they were listed.
     pub fn again(&self, serial: u32) -> Rack {
@@ -69,6 +82,7 @@ impl Rack {
         let layout = match &self.layout {
             Layout::EightBall { .. } => Layout::EightBall { seed },
             Layout::NineBall { .. } => Layout::NineBall { seed },
+            Layout::Snooker { .. } => Layout::Snooker { seed },
             Layout::Balls(balls) => Layout::Balls(balls.clone()),
         };
         Rack { layout }
@@ -77,7 +91,9 @@ impl Rack {
     /// What is left to chance when balls are racked for the `serial`-th time.
     pub fn seed(&self, serial: u32) -> u64 {
         let first = match &self.layout {
-            Layout::EightBall { seed } | Layout::NineBall { seed } => *seed,
+            Layout::EightBall { seed } | Layout::NineBall { seed } | Layout::Snooker { seed } => {
+                *seed
+            }
             Layout::Balls(_) => 0,
         };
         if serial == 0 {
@@ -95,24 +111,55 @@ impl Rack {
 
     /// The balls on this table, in the order of their ids.
     pub fn place(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, RackError> {
-        let (rows, order, mut random) = match &self.layout {
-            Layout::Balls(balls) => return sorted(balls.clone()),
+        let bed = || table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() });
+        match &self.layout {
+            Layout::Balls(balls) => sorted(balls.clone()),
             Layout::EightBall { seed } => {
-                let mut random = Pcg64Mcg::seed_from_u64(*seed);
-                (&[1, 2, 3, 4, 5][..], eight_ball_order(&mut random), random)
+                let (bed, mut random) = (bed()?, Pcg64Mcg::seed_from_u64(*seed));
+                let order = eight_ball_order(&mut random);
+                pool(&bed, &[1, 2, 3, 4, 5], order, random)
             }
             Layout::NineBall { seed } => {
-                let mut random = Pcg64Mcg::seed_from_u64(*seed);
-                (&[1, 2, 3, 2, 1][..], nine_ball_order(&mut random), random)
+                let (bed, mut random) = (bed()?, Pcg64Mcg::seed_from_u64(*seed));
+                let order = nine_ball_order(&mut random);
+                pool(&bed, &[1, 2, 3, 2, 1], order, random)
             }
-        };
-        let bed = table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() })?;
-        let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
-        for (id, place) in order.into_iter().zip(jittered(rows, &bed, &mut random)) {
-            balls.push(standing(Ball::pool(BallId(id)), place));
+            Layout::Snooker { seed } => snooker(&bed()?, Pcg64Mcg::seed_from_u64(*seed)),
         }
-        sorted(balls)
     }
+}
+
+/// Pool balls in rows from the foot spot, and the cue ball on the head spot.
+fn pool(
+    bed: &Bed,
+    rows: &[u16],
+    order: Vec<u16>,
+    mut random: Pcg64Mcg,
+) -> Result<Vec<(Ball, BallState)>, RackError> {
+    let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
+    for (id, place) in order.into_iter().zip(places(rows, bed.foot_spot(), POOL_RADIUS_M)) {
+        balls.push(standing(Ball::pool(BallId(id)), place + jitter(&mut random)));
+    }
+    sorted(balls)
+}
+
+/// Snooker's 22 balls.
+fn snooker(bed: &Bed, mut random: Pcg64Mcg) -> Result<Vec<(Ball, BallState)>, RackError> {
+    let mut balls = vec![standing(Ball::snooker(BallId::CUE), bed.home(Zone::D))];
+    for colour in (16..=21).map(BallId) {
+        balls.push(standing(Ball::snooker(colour), Spots::Snooker.of(bed, colour)));
+    }
+    let apex = Spots::Snooker.of(bed, BallId(20)) + DVec2::X * pitch(SNOOKER_RADIUS_M);
+    for (id, place) in (1..=15).zip(places(&[1, 2, 3, 4, 5], apex, SNOOKER_RADIUS_M)) {
+        balls.push(standing(Ball::snooker(BallId(id)), place + jitter(&mut random)));
+    }
+    sorted(balls)
+}
+
+/// A point of a square, drawn into the circle, so that no pair can come too near [m].
+fn jitter(random: &mut Pcg64Mcg) -> DVec2 {
+    let off = DVec2::new(unit(random), unit(random));
+    off / off.length().max(1.0) * JITTER_MAX_M
 }
 
 /// A number from −1 to 1.
@@ -150,30 +197,15 @@ fn nine_ball_order(random: &mut Pcg64Mcg) -> Vec<u16> {
     order
 }
 
-/// Distances [m] from ball to ball in a row, and from row to row.
-fn pitches() -> (f64, f64) {
-    // Neighbours that both step towards each other still do not overlap.
-    let pitch = 2.0 * (crate::ball::POOL_RADIUS_M + JITTER_MAX_M) + 1e-9;
-    (pitch, 0.75f64.sqrt() * pitch)
+/// Distance of racked neighbours [m]: those that both step towards each other do not overlap.
+fn pitch(radius_m: f64) -> f64 {
+    2.0 * (radius_m + JITTER_MAX_M) + 1e-9
 }
 
-/// The places of a rack, each a little off.
-fn jittered<'a>(
-    rows: &'a [u16],
-    bed: &Bed,
-    random: &'a mut Pcg64Mcg,
-) -> impl Iterator<Item = DVec2> + 'a {
-    places(rows, bed).map(|place| {
-        let off = DVec2::new(unit(random), unit(random));
-        // A point of a square, drawn into the circle, so that no pair can come too near.
-        place + off / off.length().max(1.0) * JITTER_MAX_M
-    })
-}
-
-/// Places row by row from the apex on the foot spot towards the foot rail.
-fn places<'a>(rows: &'a [u16], bed: &Bed) -> impl Iterator<Item = DVec2> + 'a {
-    let apex = bed.foot_spot();
-    let (pitch, row_pitch) = pitches();
+/// Places row by row from the apex towards the foot rail.
+fn places(rows: &[u16], apex: DVec2, radius_m: f64) -> impl Iterator<Item = DVec2> {
+    let pitch = pitch(radius_m);
+    let row_pitch = 0.75f64.sqrt() * pitch;
     rows.iter().enumerate().flat_map(move |(row, count)| {
         (0..*count).map(move |i| {
             let across = (f64::from(i) - 0.5 * f64::from(count - 1)) * pitch;
@@ -223,10 +255,14 @@ pub fn spot_position(
     occupied: impl Iterator<Item = (DVec2, f64)>,
     radius: f64,
 ) -> DVec2 {
+    nearest_on_line(bed, bed.foot_spot(), &occupied.collect::<Vec<_>>(), radius)
+}
+
+/// The free place nearest behind `spot` on the line to the foot rail, or else nearest before it;
+/// the spot itself if it is free, or if the whole line is full. All in metres.
+fn nearest_on_line(bed: &Bed, spot: DVec2, occupied: &[(DVec2, f64)], radius: f64) -> DVec2 {
     // A spotted ball stands as close as can be without touching.
     let gap = 1e-6;
-    let occupied: Vec<(DVec2, f64)> = occupied.collect();
-    let spot = bed.foot_spot();
     let is_free = |x: f64| {
         let here = DVec2::new(x, spot.y);
         bed.holds(here, radius)
@@ -234,7 +270,7 @@ pub fn spot_position(
     };
     // The nearest free place is the spot itself or touches one of the balls.
     let mut candidates = vec![spot.x];
-    for (place, other) in &occupied {
+    for (place, other) in occupied {
         let reach = radius + other + gap;
         let off = place.y - spot.y;
         let half = (reach * reach - off * off).max(0.0).sqrt();

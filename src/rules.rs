@@ -33,7 +33,7 @@ pub use scenario::{
     run_scenario,
 };
 pub use shot::{Met, Pocketed, Shot, watch};
-pub use state::State;
+pub use state::{Missed, State};
 pub use text::{Language, Texts, explain};
 
 use crate::events::{Call, Topic, Topics, Verdict};

@@ -21,7 +21,7 @@ pub use plan::{PlanKind, PlanLine};
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
 use crate::ids::{BallId, GameKind, PlayerId};
 use crate::mesh::Surface;
-use crate::physics::{Parameters, PhysicsSettings};
+use crate::physics::{Equipment, Parameters, PhysicsSettings};
 use crate::table::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -136,6 +136,8 @@ pub enum RackKind {
     EightBall,
     /// Nine balls in a diamond, the 9 in its middle, and the cue ball.
     NineBall,
+    /// Snooker: fifteen reds in a triangle, the colours on their spots, and the cue ball.
+    Snooker,
 }
 
 impl RackKind {
@@ -144,16 +146,25 @@ impl RackKind {
         let last = match self {
             RackKind::EightBall => 15,
             RackKind::NineBall => 9,
+            RackKind::Snooker => 21,
         };
         (0..=last).map(BallId)
     }
 
     /// All racks.
-    pub const ALL: [RackKind; 2] = [RackKind::EightBall, RackKind::NineBall];
+    pub const ALL: [RackKind; 3] = [RackKind::EightBall, RackKind::NineBall, RackKind::Snooker];
 
     /// The rack with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|rack| rack.name() == name)
+    }
+
+    /// What is played with these balls.
+    pub fn equipment(self) -> Equipment {
+        match self {
+            RackKind::EightBall | RackKind::NineBall => Equipment::Pool,
+            RackKind::Snooker => Equipment::Snooker,
+        }
     }
 
     /// Its name in a scene.
@@ -161,6 +172,7 @@ impl RackKind {
         match self {
             RackKind::EightBall => "eight-ball",
             RackKind::NineBall => "nine-ball",
+            RackKind::Snooker => "snooker",
         }
     }
 }

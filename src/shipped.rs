@@ -1,7 +1,10 @@
 //! Configuration that is compiled in, so that the program runs from any folder.
 
 /// The tables, by name: the text of `config/tables/NAME.toml`.
-pub const TABLES: &[(&str, &str)] = &[("pool-9ft", include_str!("../config/tables/pool-9ft.toml"))];
+pub const TABLES: &[(&str, &str)] = &[
+    ("pool-9ft", include_str!("../config/tables/pool-9ft.toml")),
+    ("snooker-12ft", include_str!("../config/tables/snooker-12ft.toml")),
+];
 
 /// The scenes, by name: the text of `config/scenes/NAME.toml`.
 pub const SCENES: &[(&str, &str)] = &[
@@ -12,6 +15,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("straight", include_str!("../config/scenes/straight.toml")),
     ("training", include_str!("../config/scenes/training.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
+    ("snooker", include_str!("../config/scenes/snooker.toml")),
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),

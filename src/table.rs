@@ -9,6 +9,8 @@
 
 mod parameters;
 
+mod marks;
+
 mod plan;
 
 mod flat;
@@ -26,11 +28,13 @@ mod display;
 mod trim;
 
 pub use display::{DisplayPart, Material};
-pub use parameters::{PocketParameters, TableParameters};
+pub use marks::{ClothMarks, HALF_LINE_M, SPOT_RADIUS_M};
+pub use parameters::{Marks, PocketParameters, TableParameters};
 
 use crate::events::Zone;
 use crate::ids::PocketId;
 use crate::mesh::{Mesh, ObjError, Surface, parse_obj};
+use crate::rack::Spots;
 use crate::shipped;
 use glam::{DVec2, DVec3};
 
@@ -87,6 +91,8 @@ pub struct Table {
     pub mesh: Mesh,
     /// Half spaces, infinitely wide.
     pub planes: Vec<Plane>,
+    /// Where balls return to.
+    pub spots: Spots,
     /// What it was made from, if it is a pool table.
     pub parameters: Option<TableParameters>,
 }
@@ -115,6 +121,7 @@ impl Table {
             pockets: PocketId::ALL.map(|id| pocket(&parameters, id)).to_vec(),
             mesh: physics_mesh::physics_mesh(&parameters)?,
             planes: vec![floor],
+            spots: Spots::default(),
             parameters: Some(parameters),
         })
     }
@@ -165,6 +172,8 @@ fn pocket(parameters: &TableParameters, id: PocketId) -> Pocket {
 
 /// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
 const D_RADIUS: f64 = 11.5 / 70.0;
+/// Snooker's baulk line in front of the head cushion over the bed's length: 29 of 140½ inches.
+const BAULK: f64 = 29.0 / 140.5;
 
 /// The playing area between the noses of the cushions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,6 +190,16 @@ impl Bed {
         -0.25 * self.length_m
     }
 
+    /// x of snooker's baulk line [m].
+    pub fn baulk_line_x(&self) -> f64 {
+        (BAULK - 0.5) * self.length_m
+    }
+
+    /// Radius of snooker's D round the middle of the baulk line [m].
+    pub fn d_radius_m(&self) -> f64 {
+        D_RADIUS * self.width_m
+    }
+
     /// Where a rack's apex ball stands [m].
     pub fn foot_spot(&self) -> DVec2 {
         DVec2::new(0.25 * self.length_m, 0.0)
@@ -191,13 +210,26 @@ impl Bed {
         DVec2::new(self.head_string_x(), 0.0)
     }
 
+    /// Where a ball in hand is held at first [m]: over the head spot; for the D on the baulk line, in
+    /// the middle between the brown and the yellow ball's spots.
+    pub fn home(&self, zone: Zone) -> DVec2 {
+        match zone {
+            Zone::D => DVec2::new(self.baulk_line_x(), -0.5 * self.d_radius_m()),
+            Zone::Anywhere | Zone::Kitchen => self.head_spot(),
+        }
+    }
+
     /// Whether a place on the bed lies in a zone.
     pub fn in_zone(&self, zone: Zone, place: DVec2) -> bool {
-        let behind = place.x <= self.head_string_x();
+        let middle = DVec2::new(self.baulk_line_x(), 0.0);
         match zone {
             Zone::Anywhere => true,
-            Zone::Kitchen => behind,
-            Zone::D => behind && place.distance(self.head_spot()) <= D_RADIUS * self.width_m,
+            Zone::Kitchen => place.x <= self.head_string_x(),
+            // Written decimals of a place on the line are a hair off.
+            Zone::D => {
+                let slack = 1e-9;
+                place.x <= middle.x + slack && place.distance(middle) <= self.d_radius_m() + slack
+            }
         }
     }
 

@@ -10,7 +10,7 @@ use hapticbillard::input::CameraPose;
 use hapticbillard::mesh::Surface;
 use hapticbillard::renderer::{BallInstance, DrawList, GhostBall, Line, Shape, ball_look};
 use hapticbillard::renderer::{cue_shape, sphere};
-use hapticbillard::table::{DisplayPart, Material as Made, Table};
+use hapticbillard::table::{ClothMarks, DisplayPart, Material as Made, Table};
 use three_d::*;
 
 /// How often an icosahedron's triangles are divided: 1280 triangles a ball.
@@ -36,6 +36,8 @@ pub struct Stage {
     wood: Texture2D,
     bed: Vec2,
     outer: Vec2,
+    line_and_d: Vec2,
+    spots: [Vec2; 6],
     pockets: [Vec3; 6],
 }
 
@@ -67,6 +69,10 @@ impl Stage {
         let bed = table.bed.map_or(vec2(0.0, 0.0), |bed| {
             vec2(0.5 * bed.length_m as f32, 0.5 * bed.width_m as f32)
         });
+        let (line_and_d, spots) = table.parameters.as_ref().map_or_else(
+            || (vec2(0.0, 0.0), [vec2(0.0, 0.0); 6]),
+            |parameters| marks(&parameters.cloth_marks()),
+        );
         Stage {
             parts,
             ball: Mesh::new(context, &shape_mesh(&sphere(BALL_LEVEL))),
@@ -76,6 +82,8 @@ impl Stage {
             nap: textures::nap(context),
             wood: textures::wood(context),
             bed,
+            line_and_d,
+            spots,
             outer: bed + vec2(0.2, 0.2),
             pockets,
         }
@@ -94,12 +102,16 @@ impl Stage {
         for (shader, mesh) in &self.parts {
             let is_cloth = matches!(shader, Shader::Surface(0 | 1));
             let grain = if is_cloth { &self.nap } else { &self.wood };
-            let outer = self.outer;
+            let (outer, line_and_d, spots) = (self.outer, self.line_and_d, &self.spots);
             let tell = |program: &Program| {
                 if program.requires_uniform("grain") {
                     program.use_texture("grain", grain);
                 }
                 program.use_uniform_if_required("outer", outer);
+                program.use_uniform_if_required("line_and_d", line_and_d);
+                if program.requires_uniform("spots") {
+                    program.use_uniform_array("spots", spots);
+                }
             };
             self.render(mesh, *shader, &tell, &camera);
         }
@@ -206,6 +218,18 @@ impl Stage {
         };
         self.render(mesh, Shader::Plain, &tell, camera);
     }
+}
+
+/// What the cloth's shader paints: the line across with the D behind it, and six spots, of which
+/// some may be the same.
+fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
+    let first = marks.spots.first().copied().unwrap_or_default().as_vec2();
+    let mut spots = [vec2(first.x, first.y); 6];
+    for (place, spot) in spots.iter_mut().zip(&marks.spots) {
+        *place = vec2(spot.x as f32, spot.y as f32);
+    }
+    let d_radius_m = marks.d_radius_m.unwrap_or(0.0);
+    (vec2(marks.line_x_m as f32, d_radius_m as f32), spots)
 }
 
 fn kind(made: Made) -> u16 {

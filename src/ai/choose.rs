@@ -54,6 +54,8 @@ fn dislike(choice: Choice, outlook: Outlook, has_asked: bool) -> u8 {
         Choice::RerackOpponentBreaks | Choice::Rebreak if !open => 6,
         Choice::Accept | Choice::Shoot | Choice::Play => 7,
         Choice::RerackOpponentBreaks | Choice::Rebreak | Choice::AskAgain => 8,
+        Choice::PutBack if !has_asked => 6,
+        Choice::PutBack => 9,
     }
 }
 

@@ -21,20 +21,13 @@ const BEHIND_M: [f64; 4] = [0.12, 0.25, 0.45, 0.8];
 const BESIDE_RAD: [f64; 5] = [8.0 * DEGREE, -8.0 * DEGREE, 0.0, 25.0 * DEGREE, -25.0 * DEGREE];
 /// How many spots are handed out, best first.
 const SPOTS: usize = 8;
-/// Baulk line's distance from the head rail over the bed's length: 29 of 140.5 inches.
-const BAULK: f64 = 29.0 / 140.5;
-/// Radius of snooker's D over the bed's length: 11.5 of 140.5 inches.
-const D_RADIUS: f64 = 11.5 / 140.5;
 
 /// Whether a ball's middle at `position` lies in `zone`.
 pub fn zone_holds(zone: Zone, bed: &Bed, position: DVec2) -> bool {
     match zone {
         Zone::Anywhere => true,
         Zone::Kitchen => position.x < bed.head_string_x(),
-        Zone::D => {
-            let from_middle = position - DVec2::new((BAULK - 0.5) * bed.length_m, 0.0);
-            from_middle.x <= 0.0 && from_middle.length() <= D_RADIUS * bed.length_m
-        }
+        Zone::D => bed.in_zone(Zone::D, position),
     }
 }
 
@@ -118,7 +111,7 @@ fn random_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVe
     let foot_end = match zone {
         Zone::Anywhere => half.x,
         Zone::Kitchen => bed.head_string_x(),
-        Zone::D => (BAULK - 0.5) * bed.length_m,
+        Zone::D => bed.baulk_line_x(),
     };
     if half.y <= 0.0 || foot_end <= -half.x {
         return None;

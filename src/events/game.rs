@@ -184,6 +184,17 @@ pub enum BallOn {
     Ball(BallId),
 }
 
+impl BallOn {
+    /// Whether a ball of snooker is on, if any colour will do where one must be nominated.
+    pub fn is(self, ball: BallId) -> bool {
+        match self {
+            BallOn::Red => (1..=15).contains(&ball.0),
+            BallOn::Colour => (16..=21).contains(&ball.0),
+            BallOn::Ball(on) => ball == on,
+        }
+    }
+}
+
 impl Serialize for BallOn {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
@@ -398,6 +409,7 @@ pub enum Choice {
     PassBack,
     AskAgain,
     Play,
+    PutBack,
 }
 
 /// What the rules say about a shot.
@@ -491,6 +503,9 @@ pub struct Turn {
     /// Snooker: what is on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<BallOn>,
+    /// Snooker: any ball may be nominated as if it were on.
+    #[serde(skip_serializing_if = "is_false")]
+    pub free_ball: bool,
     /// The player has been told that the next foul is the third in a row.
     #[serde(skip_serializing_if = "is_false")]
     pub warned: bool,

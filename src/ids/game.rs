@@ -17,6 +17,8 @@ macro_rules! for_all_games {
             WpaNineBall "wpa-nine-ball" "wpa9" wpa_nine_ball;
             /// Straight pool, 14.1 continuous, by the rules of the WPA.
             Straight "straight" "straight" straight;
+            /// Snooker by the rules of the WPBSA.
+            Snooker "snooker" "snooker" snooker;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
             /// Practice: any ball is put anywhere, shots are taken back.

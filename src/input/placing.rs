@@ -21,8 +21,8 @@ pub(super) struct Placing {
 }
 
 impl Placing {
-    /// Takes the ball up from where it lies, or brings it to the head spot; to the tee [m] where
-    /// there is no bed.
+    /// Takes the ball up from where it lies, or brings it to its zone; to the tee [m] where there
+    /// is no bed.
     pub fn new(
         ball: BallId,
         zone: Zone,
@@ -31,7 +31,7 @@ impl Placing {
         tee: DVec2,
     ) -> Self {
         let lies = place_of(on_table, ball).map(|ball| ball.truncate());
-        let home = bed.map_or(tee, Bed::head_spot);
+        let home = bed.map_or(tee, |bed| bed.home(zone));
         let in_zone = |place: &DVec2| bed.is_none_or(|bed| bed.in_zone(zone, *place));
         Placing { ball, zone, at: lies.filter(in_zone).unwrap_or(home), is_put: false }
     }

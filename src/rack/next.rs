@@ -1,6 +1,6 @@
 //! Straight pool goes on with a new rack while one ball is left (WPA rules 4.2 and 4.8).
 
-use super::{jittered, pitches};
+use super::{jitter, pitch, places};
 use crate::ball::POOL_RADIUS_M;
 use crate::ids::BallId;
 use crate::table::Bed;
@@ -77,7 +77,9 @@ pub fn next_rack(
     if let (Some(ball), false) = (last, is_apex_free) {
         order.insert(0, ball);
     }
-    let places = jittered(&[1, 2, 3, 4, 5], bed, &mut random).skip(usize::from(is_apex_free));
+    let places = places(&[1, 2, 3, 4, 5], bed.foot_spot(), POOL_RADIUS_M)
+        .map(|place| place + jitter(&mut random))
+        .skip(usize::from(is_apex_free));
     let mut balls: Vec<(BallId, DVec2)> = order.into_iter().zip(places).collect();
     balls.extend(last.zip(apart));
     balls.sort_by_key(|(ball, _)| *ball);
@@ -91,7 +93,8 @@ struct Outline {
 
 impl Outline {
     fn of(bed: &Bed) -> Self {
-        let (pitch, row_pitch) = pitches();
+        let pitch = pitch(POOL_RADIUS_M);
+        let row_pitch = 0.75f64.sqrt() * pitch;
         let radius = 0.5 * pitch;
         let apex = bed.foot_spot();
         // Each side is moved out by a radius from the middles of the balls along it.

@@ -1,6 +1,6 @@
 //! The draw list: what is where in one picture, in `f32` as graphics cards want it.
 
-use super::look::{BallLook, ball_look};
+use super::look::{BallLook, BallSet};
 use crate::ball::{BallPlace, BallState, POOL_RADIUS_M};
 use crate::cue::{CuePose, TIP_RADIUS_M};
 use crate::ids::BallId;
@@ -23,16 +23,17 @@ const RING_HALF_WIDTH_M: f32 = 0.003;
 /// How far the line of an object ball's way is drawn [m].
 const OBJECT_WAY_M: f64 = 0.30;
 
-/// The radii of the balls and of the tip; they do not change in a game.
+/// The radii of the balls and of the tip, and how balls look; they do not change in a game.
 #[derive(Debug, Clone)]
 pub struct Radii {
     balls: Vec<(BallId, f64)>,
     tip_m: f64,
+    set: BallSet,
 }
 
 impl Default for Radii {
     fn default() -> Self {
-        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M }
+        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M, set: BallSet::Pool }
     }
 }
 
@@ -48,6 +49,12 @@ impl Radii {
     #[must_use]
     pub fn with_tip(self, tip_m: f64) -> Self {
         Radii { tip_m, ..self }
+    }
+
+    /// The same for the balls of another game.
+    #[must_use]
+    pub fn with_set(self, set: BallSet) -> Self {
+        Radii { set, ..self }
     }
 
     /// The radius of a ball [m]; a pool ball's if nobody said.
@@ -167,7 +174,7 @@ impl DrawList {
     fn show_placing(&mut self, view: &HumanView, radii: &Radii) {
         let Some(at) = view.placing else { return };
         let radius_m = radii.of(view.placing_ball);
-        let [r, g, b] = ball_look(view.placing_ball).colour;
+        let [r, g, b] = radii.set.look(view.placing_ball).colour;
         let colour = match (view.placing_allowed, view.placing_ball) {
             (false, _) => [0.95, 0.2, 0.15, 0.6],
             (true, BallId::CUE) => [1.0, 1.0, 0.96, 0.85],
@@ -223,7 +230,7 @@ fn held(cue: CuePose, radii: &Radii) -> CuePose {
 fn instance(ball: &BallState, radii: &Radii) -> BallInstance {
     BallInstance {
         id: ball.id,
-        look: ball_look(ball.id),
+        look: radii.set.look(ball.id),
         position: ball.position.as_vec3().to_array(),
         orientation: (ball.orientation * tossed(ball.id)).as_quat().to_array(),
         radius_m: radii.of(ball.id) as f32,

@@ -1,6 +1,7 @@
 //! How balls look: colour, stripe and number.
 
 use crate::ids::BallId;
+use crate::physics::Equipment;
 
 /// The look of a ball. Its own frame: the discs with the number are at +x and −x, the stripe runs
 /// round +z, and z is up where the number stands upright.
@@ -12,6 +13,50 @@ pub struct BallLook {
     pub is_striped: bool,
     /// The number in the discs; none for balls without discs.
     pub number: Option<u16>,
+}
+
+/// The balls of a game.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum BallSet {
+    /// Solids and stripes with numbers.
+    #[default]
+    Pool,
+    /// Fifteen reds and six colours, without numbers.
+    Snooker,
+}
+
+impl From<Equipment> for BallSet {
+    fn from(equipment: Equipment) -> Self {
+        match equipment {
+            Equipment::Snooker => BallSet::Snooker,
+            Equipment::Pool | Equipment::Carom => BallSet::Pool,
+        }
+    }
+}
+
+impl BallSet {
+    /// The look of one of its balls.
+    pub fn look(self, ball: BallId) -> BallLook {
+        match self {
+            BallSet::Pool => ball_look(ball),
+            BallSet::Snooker => snooker_look(ball),
+        }
+    }
+}
+
+/// The look of a snooker ball: 1 to 15 are red; yellow, green, brown, blue, pink, black follow.
+fn snooker_look(ball: BallId) -> BallLook {
+    let colour = match ball.0 {
+        1..=15 => [0.66, 0.03, 0.05],
+        16 => [0.95, 0.78, 0.08],
+        17 => [0.02, 0.38, 0.20],
+        18 => [0.36, 0.17, 0.06],
+        19 => [0.04, 0.20, 0.62],
+        20 => [0.95, 0.50, 0.58],
+        21 => [0.025, 0.025, 0.03],
+        _ => IVORY,
+    };
+    BallLook { colour, is_striped: false, number: None }
 }
 
 /// Ivory, in sRGB.

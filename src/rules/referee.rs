@@ -9,6 +9,7 @@ use super::phase::{Phase, Signal};
 use super::shot::{Shot, watch};
 use super::state::State;
 use super::{legal_first, topics};
+use crate::ball::BallState;
 use crate::events::{
     BallInHand, Call, CallKind, Choice, Command, Event, Fact, FactKind, Racked, Racking, Source,
     Topic, Topics, Turn, TurnAfter, Verdict, Zone,
@@ -17,6 +18,7 @@ use crate::hash::StateHash;
 use crate::ids::GameKind;
 use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
+use crate::rack::{From, Sight};
 use crate::tick::{Delivered, Outcome, Participant};
 use smallvec::SmallVec;
 use std::collections::VecDeque;
@@ -48,6 +50,10 @@ pub struct Referee {
     verdict: Option<Arc<Verdict>>,
     /// In training, how it stood when each of the last shots began.
     history: VecDeque<(State, u32)>,
+    /// Balls are put back: that the cue ball lies then is nobody's placement.
+    is_put_back: bool,
+    /// What it takes to see whether the next player is snookered, where that matters.
+    sight: Option<Sight>,
 }
 
 impl Referee {
@@ -71,6 +77,8 @@ impl Referee {
             racks: 0,
             verdict: None,
             history: VecDeque::new(),
+            is_put_back: false,
+            sight: None,
         }
     }
 
@@ -91,6 +99,14 @@ impl Referee {
     #[must_use]
     pub fn alone(mut self) -> Self {
         self.state.is_alone = true;
+        self
+    }
+
+    /// Lets it see whether a foul leaves the next player snookered. Without that it believes what
+    /// [`FactKind::Settled`] says.
+    #[must_use]
+    pub fn with_sight(mut self, sight: Sight) -> Self {
+        self.sight = Some(sight);
         self
     }
 
@@ -197,6 +213,10 @@ impl Referee {
         self.state = chosen.state;
         self.shot = Shot::of(self.state.cue_ball);
         let mut sayings = Sayings::new();
+        self.is_put_back = choice == Choice::PutBack;
+        if self.is_put_back {
+            sayings.push(Event::Command(Command::Undo));
+        }
         if !chosen.spot.is_empty() {
             sayings.push(Event::Command(Command::SpotBalls(chosen.spot)));
         }
@@ -228,11 +248,17 @@ impl Referee {
             Phase::Opening | Phase::Choosing | Phase::Over => Sayings::new(),
 
             Phase::Placing | Phase::Waiting => match fact.kind {
+                FactKind::BallPlaced { ball, .. }
+                    if ball == self.state.cue_ball && std::mem::take(&mut self.is_put_back) =>
+                {
+                    Sayings::new()
+                }
                 FactKind::BallPlaced { ball, zone, ok } if ball == self.state.cue_ball => {
                     watch(&mut self.shot, fact);
                     self.take_placement(zone, ok)
                 }
                 FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. } => {
+                    self.is_put_back = false;
                     watch(&mut self.shot, fact);
                     self.begin_shot();
                     Sayings::new()
@@ -292,6 +318,21 @@ impl Referee {
         }
     }
 
+    /// The fact, and if everything is at rest whether the next player is snookered: physics knows
+    /// where balls lie but not which are on, nor which return to their spots.
+    fn seen(&self, fact: &Fact, table: &Snapshot) -> Fact {
+        let (Some(sight), FactKind::Settled { snookered: false, cue_in_rack }) =
+            (&self.sight, fact.kind)
+        else {
+            return *fact;
+        };
+        let mut shot = self.shot.clone();
+        watch(&mut shot, fact);
+        let verdict = (self.judge)(&self.state, self.call.as_ref(), &shot);
+        let snookered = !verdict.legal && is_snookered(sight, &self.state, &verdict, table);
+        Fact { kind: FactKind::Settled { snookered, cue_in_rack }, ..*fact }
+    }
+
     fn end_shot(&mut self) -> Sayings {
         let shot = std::mem::take(&mut self.shot);
         let call = self.call.take();
@@ -338,6 +379,7 @@ impl Referee {
             cue_ball: state.cue_ball,
             score: game(self.game).has_score.then_some(state.score),
             on: state.on,
+            free_ball: state.free_ball,
             warned: state.warned,
         };
         std::iter::once(Event::Turn(Arc::new(turn))).collect()
@@ -367,7 +409,10 @@ impl Participant for Referee {
         let mut sayings = Sayings::new();
         for stamped in delivered.events.iter() {
             match &stamped.event {
-                Event::Fact(fact) => sayings.extend(self.handle(fact)),
+                Event::Fact(fact) => {
+                    let fact = self.seen(fact, &delivered.table);
+                    sayings.extend(self.handle(&fact));
+                }
                 Event::Command(command) => {
                     sayings.extend(self.obey(stamped.stamp.source, command));
                 }
@@ -388,6 +433,10 @@ impl Participant for Referee {
             state.hash_into(hash);
             hash.u64((*shot_number).into());
         }
+        // Other games never do that, and keep their hashes.
+        if self.is_put_back {
+            hash.u64(1);
+        }
         hash.u64(match self.call {
             None | Some(Call::Kind(CallKind::Nothing)) => 0,
             Some(Call::Kind(CallKind::Safety)) => 1,
@@ -398,6 +447,25 @@ impl Participant for Referee {
             }
         });
     }
+}
+
+/// Whether a verdict leaves the next player without a ball on to be hit in a straight line.
+fn is_snookered(sight: &Sight, state: &State, verdict: &Verdict, table: &Snapshot) -> bool {
+    let lies = |ball: &BallState| (ball.id, ball.position.truncate());
+    let (cue_ball, lying): (Vec<_>, Vec<_>) =
+        table.on_table().map(lies).partition(|(id, _)| *id == state.cue_ball);
+    let from = match (verdict.ball_in_hand, cue_ball.first()) {
+        (BallInHand::None, Some((_, place))) => From::Here(*place),
+        (BallInHand::D, _) => From::D,
+        // From anywhere on the bed something can always be hit.
+        _ => return false,
+    };
+    let stays = match from {
+        From::Here(place) => Some(place),
+        From::D => None,
+    };
+    let balls = sight.with_spotted(&lying, stays, &verdict.spot);
+    sight.is_snookered(from, &balls, |ball| verdict.ball_on_next.is_some_and(|on| on.is(ball)))
 }
 
 fn say(sayings: Sayings) -> Outcome {

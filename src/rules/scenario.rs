@@ -302,7 +302,7 @@ mod tests {
             assert_eq!(result.differences[0].key, key);
             assert!(result.differences[0].problem.contains(part), "{result:?}");
         }
-        check(r#"[{"id":"a","ruleset":"snooker"}]"#, "ruleset", "unknown game 'snooker'");
+        check(r#"[{"id":"a","ruleset":"shove"}]"#, "ruleset", "unknown game 'shove'");
         check(r#"[{"id":"a","ruleset":"paper8","events":[]}]"#, "events", "nothing settles");
         check(
             r#"[{"id":"a","ruleset":"paper8","state":{"player":7}}]"#,

@@ -58,6 +58,9 @@ pub struct State {
     /// Snooker: any ball may be nominated as if it were on.
     #[serde(skip_serializing_if = "is_false")]
     pub free_ball: bool,
+    /// Snooker: what a miss left, for whoever may have it put back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missed: Option<Box<Missed>>,
     /// The ball that the player strikes.
     #[serde(skip_serializing_if = "is_zero")]
     pub cue_ball: BallId,
@@ -67,6 +70,18 @@ pub struct State {
     /// Nobody plays but this player.
     #[serde(skip_serializing_if = "is_false")]
     pub is_alone: bool,
+}
+
+/// What a shot began with that may be put back.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Missed {
+    /// Object balls on the table, in ascending order.
+    #[serde(deserialize_with = "ascending")]
+    pub on_table: SmallVec<[BallId; 16]>,
+    /// What was on.
+    pub on: Option<BallOn>,
+    /// Whether any ball could be nominated.
+    pub free_ball: bool,
 }
 
 impl Default for State {
@@ -87,6 +102,7 @@ impl Default for State {
             on: None,
             nominated: None,
             free_ball: false,
+            missed: None,
             cue_ball: BallId::CUE,
             options: SmallVec::new(),
             is_alone: false,
@@ -210,7 +226,7 @@ impl State {
         on_table.dedup();
         let pocketed = self.pocketed_this_turn || !shot.pocketed.is_empty();
         let turn_goes_on = verdict.turn == TurnAfter::Continue;
-        let add = |player| self.score.of(player) + verdict.points.of(player);
+        let add = |player| self.score.of(player).saturating_add(verdict.points.of(player));
         State {
             shot: ShotKind::Normal,
             player: verdict.chooser.or(verdict.next_player).unwrap_or(self.player),
@@ -230,6 +246,7 @@ impl State {
             after_break: false,
             warned: false,
             nominated: None,
+            missed: None,
             breaker: self.breaker,
             cue_ball: self.cue_ball,
             is_alone: self.is_alone,
@@ -256,15 +273,24 @@ impl State {
         }
         hash.u64(i64::from(self.score.one) as u64);
         hash.u64(i64::from(self.score.two) as u64);
-        hash.u64(match self.on {
-            None => 0,
-            Some(BallOn::Red) => 1,
-            Some(BallOn::Colour) => 2,
-            Some(BallOn::Ball(ball)) => 3 + u64::from(ball.0),
-        });
+        hash.u64(code_of(self.on));
         hash.u64(self.nominated.map_or(0, |ball| 1 + u64::from(ball.0)));
         hash.u64(self.cue_ball.0.into());
         hash_list(hash, self.options.iter().map(|choice| *choice as u64));
+        if let Some(missed) = &self.missed {
+            hash_list(hash, missed.on_table.iter().map(|ball| ball.0.into()));
+            hash.u64(code_of(missed.on));
+            hash.u64(missed.free_ball.into());
+        }
+    }
+}
+
+fn code_of(on: Option<BallOn>) -> u64 {
+    match on {
+        None => 0,
+        Some(BallOn::Red) => 1,
+        Some(BallOn::Colour) => 2,
+        Some(BallOn::Ball(ball)) => 3 + u64::from(ball.0),
     }
 }
 

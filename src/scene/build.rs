@@ -5,8 +5,8 @@ use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TO
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::ids::GameKind;
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::physics::{Parameters, Racks};
-use crate::rack::Rack;
+use crate::physics::{Equipment, Parameters, Racks};
+use crate::rack::{Rack, Spots};
 use crate::table::Table;
 use glam::{DQuat, DVec3};
 
@@ -24,6 +24,9 @@ impl Scene {
             })?,
             None => Table { name: self.about.name.clone(), ..Table::default() },
         };
+        if self.equipment() == Equipment::Snooker {
+            table.spots = Spots::Snooker;
+        }
         table.planes.extend_from_slice(&self.planes);
         for section in &self.boxes {
             table.mesh.append(&box_mesh(section));
@@ -101,12 +104,18 @@ impl Scene {
         match kind {
             RackKind::EightBall => Rack::eight_ball(seed),
             RackKind::NineBall => Rack::nine_ball(seed),
+            RackKind::Snooker => Rack::snooker(seed),
         }
+    }
+
+    /// What the scene's rack is played with; pool's without one.
+    pub fn equipment(&self) -> Equipment {
+        self.balls.as_ref().map_or(Equipment::Pool, |balls| balls.rack.equipment())
     }
 
     /// The numbers of the contact laws, with those of the scene's own cue.
     pub fn parameters(&self) -> Parameters {
-        let mut parameters = Parameters::of(&self.physics);
+        let mut parameters = Parameters::with_equipment(&self.physics, self.equipment());
         if let Some(cue) = &self.cue {
             cue.apply(&mut parameters);
         }

@@ -18,10 +18,24 @@ fn with_line(text: &str, error: &toml::de::Error) -> String {
     format!("line {}, '{written}': {message}", index + 1)
 }
 
+/// What is drawn on the cloth and set into the rails.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Marks {
+    /// Head string, head spot, foot spot, and the eighteen sights on the rails.
+    #[default]
+    Pool,
+    /// Baulk line, D and six spots; no sights.
+    Snooker,
+}
+
 /// Dimensions of a pool table. Heights are above the cloth unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableParameters {
+    /// What is drawn on the cloth and set into the rails.
+    #[serde(default)]
+    pub marks: Marks,
     /// Playing area along x, nose to nose [m].
     pub length_m: f64,
     /// Playing area along y, nose to nose [m].
@@ -53,12 +67,16 @@ pub struct TableParameters {
     /// Underside of the frame below the cloth [m].
     pub body_depth_m: f64,
     /// Distance between neighbouring diamonds [m].
+    #[serde(default)]
     pub diamond_pitch_m: f64,
     /// Middle of the diamonds behind the nose line [m].
+    #[serde(default)]
     pub diamond_from_nose_m: f64,
     /// Length of a diamond, across the rail [m].
+    #[serde(default)]
     pub diamond_length_m: f64,
     /// Width of a diamond, along the rail [m].
+    #[serde(default)]
     pub diamond_width_m: f64,
     /// The four pockets in the corners.
     pub corner: PocketParameters,
@@ -107,8 +125,11 @@ impl TableParameters {
     }
 
     /// The middles of the eighteen sights, six on each long rail and three on each short one, with
-    /// the unit vector across the rail [m].
+    /// the unit vector across the rail [m]. A snooker table has none.
     pub(super) fn sights(&self) -> Vec<(DVec2, DVec2)> {
+        if self.marks == Marks::Snooker {
+            return Vec::new();
+        }
         let line =
             0.5 * DVec2::new(self.length_m, self.width_m) + DVec2::splat(self.diamond_from_nose_m);
         let pitch = self.diamond_pitch_m;
@@ -152,11 +173,18 @@ impl TableParameters {
         let depth_least = ball + self.drop_radius_m;
         within("pocket_depth_m", self.pocket_depth_m, depth_least, 0.5)?;
         within("body_depth_m", self.body_depth_m, self.pocket_depth_m + 0.01, 1.0)?;
-        within("diamond_pitch_m", self.diamond_pitch_m, 0.05, 0.2 * self.length_m)?;
-        let diamond_least = self.cushion_width_m + 0.5 * self.diamond_length_m;
-        within("diamond_from_nose_m", self.diamond_from_nose_m, diamond_least, self.rail_width_m)?;
-        within("diamond_length_m", self.diamond_length_m, 0.001, 0.05)?;
-        within("diamond_width_m", self.diamond_width_m, 0.001, 0.05)?;
+        if self.marks == Marks::Pool {
+            within("diamond_pitch_m", self.diamond_pitch_m, 0.05, 0.2 * self.length_m)?;
+            let diamond_least = self.cushion_width_m + 0.5 * self.diamond_length_m;
+            within(
+                "diamond_from_nose_m",
+                self.diamond_from_nose_m,
+                diamond_least,
+                self.rail_width_m,
+            )?;
+            within("diamond_length_m", self.diamond_length_m, 0.001, 0.05)?;
+            within("diamond_width_m", self.diamond_width_m, 0.001, 0.05)?;
+        }
         for (name, pocket, angle_least) in
             [("corner", &self.corner, 136.0), ("side", &self.side, 92.0)]
         {

@@ -38,6 +38,8 @@ mod report;
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
+/// Snooker: its spots, what can be seen, its table, and what follows from choices.
+mod snooker;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.

@@ -18,13 +18,14 @@ use serde_json::json;
 use std::sync::Arc;
 
 /// Scenarios of the rule book, a file per game and more.
-const FILES: [&str; 6] = [
+const FILES: [&str; 7] = [
     include_str!("data/rules/paper_eight_ball.json"),
     include_str!("data/rules/paper_eight_ball_more.json"),
     include_str!("data/rules/wpa_eight_ball.json"),
     include_str!("data/rules/wpa_eight_ball_more.json"),
     include_str!("data/rules/wpa_nine_ball.json"),
     include_str!("data/rules/straight.json"),
+    include_str!("data/rules/snooker.json"),
 ];
 
 #[test]

@@ -207,9 +207,9 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
          [[plane]], [[box]] and [[mesh]] instead",
     );
     after_head(
-        "[table]\npreset = \"snooker-12ft\"\n",
-        "5: table.preset = \"snooker-12ft\": this build knows only \"pool-9ft\"; write for \
-         example preset = \"pool-9ft\"",
+        "[table]\npreset = \"bagatelle\"\n",
+        "5: table.preset = \"bagatelle\": this build knows \"pool-9ft\", \"snooker-12ft\"; \
+         write for example preset = \"pool-9ft\"",
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\nlength_m = 3\n",
@@ -356,9 +356,9 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
          \"eight-ball\", or list each ball as [[ball]]",
     );
     after_head(
-        "[table]\npreset = \"pool-9ft\"\n[balls]\nrack = \"snooker\"\n",
-        "7: balls.rack = \"snooker\": this build knows \"eight-ball\", \"nine-ball\"; write for \
-         example rack = \"eight-ball\"",
+        "[table]\npreset = \"pool-9ft\"\n[balls]\nrack = \"bagatelle\"\n",
+        "7: balls.rack = \"bagatelle\": this build knows \"eight-ball\", \"nine-ball\", \
+         \"snooker\"; write for example rack = \"eight-ball\"",
     );
     after_head(
         "[rules]\ngame = \"bridge\"\n",

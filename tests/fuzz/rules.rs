@@ -63,6 +63,13 @@ fn check_corners(kind: GameKind, tally: &Tally) {
             met("assigned", tally.assigned, 10);
             met("spotted", tally.spotted, 10);
         }
+        GameKind::Snooker => {
+            met("fouls", tally.fouls, 100);
+            met("wins", tally.wins, 1);
+            met("choices", tally.choices, 10);
+            met("points", tally.points, 100);
+            met("spotted", tally.spotted, 100);
+        }
         GameKind::WpaEightBall => {
             met("fouls", tally.fouls, 100);
             met("wins", tally.wins, 10);

@@ -135,7 +135,7 @@ fn a_wrong_scene_is_one_line_on_stderr() {
     refused(
         &["scene", "banana"],
         "there is no scene 'banana': write a file or one of eight_ball, eight_ball_headless, \
-         free_play, break_shot, one_ball, minigolf, haptic_touch",
+         free_play, snooker, break_shot, one_ball, minigolf, haptic_touch",
     );
 }
 

@@ -6,6 +6,9 @@ in vec2 uvs;
 uniform sampler2D grain;
 // Half the outer length and width of the table.
 uniform vec2 outer;
+// x of the line across the bed, and the radius of the D behind it; 0 without.
+uniform vec2 line_and_d;
+uniform vec2 spots[6];
 layout (location = 0) out vec4 colour;
 
 void main() {
@@ -19,12 +22,20 @@ void main() {
     float nap = texture(grain, uvs * 2.2).r;
     albedo = vec3(0.012, 0.205, 0.098) * (0.86 + 0.28 * nap);
     vec2 inside = bed - abs(pos.xy);
-    // Head string, head spot and foot spot, never thinner than the picture can show.
+    // The line across, the D and the spots, never thinner than the picture can show.
     float wide = max(fwidth(pos.x), fwidth(pos.y));
-    float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, abs(pos.x + 0.5 * bed.x)))
+    float behind = line_and_d.x - pos.x;
+    float off = abs(behind);
+    if (line_and_d.y > 0.0 && behind > 0.0) {
+        off = min(off, abs(length(vec2(behind, pos.y)) - line_and_d.y));
+    }
+    float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, off))
         * step(0.0, inside.y) * min(1.0, 0.0035 / wide);
-    float spot = 1.0 - smoothstep(0.006, 0.006 + wide,
-        length(vec2(abs(pos.x) - 0.5 * bed.x, pos.y)));
+    float away_from_spot = 1e3;
+    for (int i = 0; i < 6; ++i) {
+        away_from_spot = min(away_from_spot, length(pos.xy - spots[i]));
+    }
+    float spot = 1.0 - smoothstep(0.006, 0.006 + wide, away_from_spot);
     albedo = mix(albedo, vec3(0.50, 0.60, 0.50), bed.x > 0.0 ? max(0.6 * line, 0.8 * spot) : 0.0);
     if (bed.x > 0.0) {
         open = mix(0.42, 1.0, smoothstep(-0.012, 0.055, min(inside.x, inside.y)));

@@ -8,7 +8,6 @@ use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::rack;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -42,11 +41,7 @@ impl EventDriven {
             Command::PlaceBall { ball, position_m, zone } => {
                 self.place_ball(at, *ball, *position_m, *zone);
             }
-            Command::SpotBalls(balls) => {
-                for ball in balls {
-                    self.spot_ball(at, *ball);
-                }
-            }
+            Command::SpotBalls(balls) => self.spot_balls(at, balls),
             Command::Undo => {
                 if let Some(lies) = self.memory.take_back() {
                     self.lay_all(at, &lies);
@@ -157,17 +152,23 @@ impl EventDriven {
         self.wake_neighbours(at, &[index]);
     }
 
-    /// Puts a ball on its spot, or as near behind it as there is room.
-    fn spot_ball(&mut self, at: Seconds, ball: BallId) {
-        let (Some(index), Some(bed)) = (self.index(ball), self.terrain.bed) else { return };
-        let radius = self.bodies[index].ball.radius_m;
-        let others = self
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(other, body)| *other != index && body.solid())
-            .map(|(_, body)| (body.segment.position_at(at).truncate(), body.ball.radius_m));
-        let place = rack::spot_position(&bed, others, radius);
-        self.put_down(at, index, place);
+    /// Puts balls back on their spots, or as near as there is room.
+    fn spot_balls(&mut self, at: Seconds, balls: &[BallId]) {
+        let (Some(bed), spots) = (self.terrain.bed, self.terrain.spots) else { return };
+        let Some(first) = balls.first().and_then(|ball| self.index(*ball)) else { return };
+        let radius = self.bodies[first].ball.radius_m;
+        for ball in spots.in_order(&bed, balls, &self.occupied(at, balls), radius) {
+            let Some(index) = self.index(ball) else { continue };
+            let radius = self.bodies[index].ball.radius_m;
+            let place = spots.place(&bed, ball, &self.occupied(at, &[ball]), radius);
+            self.put_down(at, index, place);
+        }
+    }
+
+    /// Places and radii of the solid balls but these [m].
+    fn occupied(&self, at: Seconds, without: &[BallId]) -> Vec<(DVec2, f64)> {
+        let others =
+            self.bodies.iter().filter(|body| body.solid() && !without.contains(&body.ball.id));
+        others.map(|body| (body.segment.position_at(at).truncate(), body.ball.radius_m)).collect()
     }
 }

@@ -8,7 +8,6 @@ use crate::cue::CuePath;
 use crate::events::{Command, FactKind, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::rack;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -55,7 +54,7 @@ impl FixedStep {
                 Command::PlaceBall { ball, position_m, zone } => {
                     self.place_ball(ball, position_m, zone);
                 }
-                Command::SpotBalls(balls) => balls.iter().for_each(|ball| self.spot_ball(*ball)),
+                Command::SpotBalls(balls) => self.spot_balls(&balls),
                 Command::Undo => {
                     if let Some(lies) = self.memory.take_back() {
                         self.lay_all(&lies);
@@ -167,17 +166,23 @@ impl FixedStep {
         self.touching.retain(|(a, b)| *a != index && *b != index);
     }
 
-    /// Puts a ball on its spot, or as near behind it as there is room.
-    fn spot_ball(&mut self, ball: BallId) {
-        let (Some(index), Some(bed)) = (self.index(ball), self.ground.bed) else { return };
-        let radius = self.bodies[index].ball.radius_m;
-        let others = self
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(other, body)| *other != index && body.solid())
-            .map(|(_, body)| (body.position.truncate(), body.ball.radius_m));
-        let place = rack::spot_position(&bed, others, radius);
-        self.put_down(index, place);
+    /// Puts balls back on their spots, or as near as there is room.
+    fn spot_balls(&mut self, balls: &[BallId]) {
+        let (Some(bed), spots) = (self.ground.bed, self.ground.spots) else { return };
+        let Some(first) = balls.first().and_then(|ball| self.index(*ball)) else { return };
+        let radius = self.bodies[first].ball.radius_m;
+        for ball in spots.in_order(&bed, balls, &self.occupied(balls), radius) {
+            let Some(index) = self.index(ball) else { continue };
+            let radius = self.bodies[index].ball.radius_m;
+            let place = spots.place(&bed, ball, &self.occupied(&[ball]), radius);
+            self.put_down(index, place);
+        }
+    }
+
+    /// Places and radii of the solid balls but these [m].
+    fn occupied(&self, without: &[BallId]) -> Vec<(DVec2, f64)> {
+        let others =
+            self.bodies.iter().filter(|body| body.solid() && !without.contains(&body.ball.id));
+        others.map(|body| (body.position.truncate(), body.ball.radius_m)).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! What no ball touches: castings, diamonds, marks, apron, legs and the floor.
 
 use super::{DisplayPart, DisplayTriangle, Material, smooth};
-use crate::table::Bed;
+use crate::table::marks::{HALF_LINE_M, SPOT_RADIUS_M};
 use crate::table::parameters::{PocketParameters, TableParameters};
 use crate::table::plan::{Detail, corner_centre, direction, rim_radius, side_centre};
 use crate::table::quarter::outline;
@@ -15,14 +15,17 @@ const ROUND_CHORDS: usize = 28;
 
 /// All of it.
 pub(super) fn parts(table: &TableParameters) -> Vec<DisplayPart> {
-    vec![
+    let mut parts = vec![
         smooth::part("castings", Material::Casting, &castings(table)),
         smooth::part("diamonds", Material::Diamond, &diamonds(table)),
         smooth::part("marks", Material::Line, &marks(table)),
         smooth::part("apron", Material::DarkWood, &apron(table)),
         smooth::part("legs", Material::DarkWood, &legs(table)),
         smooth::part("floor", Material::Floor, &floor(table)),
-    ]
+    ];
+    // A snooker table has no diamonds.
+    parts.retain(|part| !part.indices.is_empty());
+    parts
 }
 
 /// Adds the strip between two lines, seen from the side where `upper` lies left of `lower`.
@@ -143,26 +146,33 @@ fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     triangles
 }
 
-/// Head string, head spot and foot spot.
+/// The line across the bed, the spots, and in snooker the D.
 fn marks(table: &TableParameters) -> Vec<DisplayTriangle> {
-    let bed = Bed { length_m: table.length_m, width_m: table.width_m };
-    let (half_line, spot_radius) = (0.0008, 0.006);
+    let marks = table.cloth_marks();
+    let (x, y) = (marks.line_x_m, 0.5 * table.width_m);
+    let across = |x: f64| [-y, 0.0, y].map(|y| DVec3::new(x, y, MARK_LIFT_M));
     let mut triangles = Vec::new();
-    let (x, y) = (bed.head_string_x(), 0.5 * table.width_m);
-    let end = |x: f64| {
-        [
-            DVec3::new(x, -y, MARK_LIFT_M),
-            DVec3::new(x, 0.0, MARK_LIFT_M),
-            DVec3::new(x, y, MARK_LIFT_M),
-        ]
-    };
-    strip(&mut triangles, &end(x + half_line), &end(x - half_line));
-    for spot in [bed.foot_spot(), bed.head_spot()] {
+    strip(&mut triangles, &across(x + HALF_LINE_M), &across(x - HALF_LINE_M));
+    if let Some(radius) = marks.d_radius_m {
+        let arc = |radius: f64| half_circle(DVec2::new(x, 0.0), radius);
+        strip(&mut triangles, &arc(radius + HALF_LINE_M), &arc(radius - HALF_LINE_M));
+    }
+    for spot in marks.spots {
         // The spots lie on the line.
         let lift = 1.5 * MARK_LIFT_M;
-        fan(&mut triangles, spot.extend(lift), &circle(spot, spot_radius, lift));
+        fan(&mut triangles, spot.extend(lift), &circle(spot, SPOT_RADIUS_M, lift));
     }
     triangles
+}
+
+/// A half circle towards −x, anticlockwise from above.
+fn half_circle(centre: DVec2, radius: f64) -> Vec<DVec3> {
+    (0..=ROUND_CHORDS)
+        .map(|k| {
+            let angle = PI * (0.5 + k as f64 / ROUND_CHORDS as f64);
+            (centre + radius * direction(angle)).extend(MARK_LIFT_M)
+        })
+        .collect()
 }
 
 /// A closed circle, anticlockwise from above.

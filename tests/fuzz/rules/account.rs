@@ -21,6 +21,8 @@ pub struct Account {
     all: Vec<BallId>,
     /// Those on the table.
     pub on_table: Vec<BallId>,
+    /// The cue ball is put back: that it lies then is nobody's placement.
+    pub awaits_return: bool,
     pub groups: Option<Groups>,
     /// Who must act: shoot, or choose.
     pub player: PlayerId,
@@ -77,6 +79,7 @@ impl Account {
             judge,
             all: (1..=game(kind).balls).map(BallId).collect(),
             on_table: (1..=game(kind).balls).map(BallId).collect(),
+            awaits_return: false,
             groups: None,
             player: PlayerId::ONE,
             is_break: true,
@@ -137,8 +140,13 @@ impl Account {
             matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen)
         };
         let spots = !verdict.options.iter().any(is_chosen);
+        self.awaits_return = false;
+        let before = self.on_table.clone();
         self.move_balls(&fate, verdict, spots)?;
         require(referee.state().on_table.as_slice() == self.on_table, "balls are miscounted")?;
+        let missed = referee.state().missed.as_ref();
+        let is_kept = missed.is_none_or(|missed| missed.on_table.as_slice() == before);
+        require(is_kept, "other balls would be put back than lay there")?;
         self.check_score(verdict, referee)?;
         self.is_break = is_racked;
         self.shot_number += 1;
@@ -223,7 +231,9 @@ impl Account {
     fn move_balls(&mut self, fate: &Fate, verdict: &Verdict, spots: bool) -> Result<(), String> {
         let is_gone = |ball: &BallId| fate.fell(*ball) || fate.left(*ball);
         for ball in &verdict.spot {
-            require(is_gone(ball), "a ball is spotted that was not gone")?;
+            // After a tie snooker's black goes to its spot from wherever it lies.
+            let is_tied = self.kind == GameKind::Snooker && self.on_table == [*ball];
+            require(is_gone(ball) || is_tied, "a ball is spotted that was not gone")?;
         }
         self.on_table.retain(|ball| !is_gone(ball));
         if spots {
@@ -258,6 +268,14 @@ impl Account {
         tally: &mut Tally,
     ) -> Result<(), String> {
         let mut rest = said;
+        if let [Event::Command(Command::Undo), more @ ..] = rest {
+            let Some(missed) = &self.state.missed else {
+                return Err("balls are put back after no miss".into());
+            };
+            self.on_table = missed.on_table.to_vec();
+            self.awaits_return = true;
+            rest = more;
+        }
         if let [Event::Command(Command::SpotBalls(balls)), more @ ..] = rest {
             for ball in balls {
                 require(!self.on_table.contains(ball), "a ball is spotted that lies there")?;

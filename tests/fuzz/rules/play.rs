@@ -132,7 +132,11 @@ pub fn play(kind: GameKind, judge: Judge, rng: &mut impl Rng) -> Result<Tally, S
             facts.clear();
         }
         facts.push(fact);
-        if is_heard(phase, &what, referee.state().cue_ball) {
+        let cue_ball = referee.state().cue_ball;
+        let returns = matches!(phase, Phase::Placing | Phase::Waiting)
+            && matches!(what, FactKind::BallPlaced { ball, .. } if ball == cue_ball)
+            && std::mem::take(&mut account.awaits_return);
+        if is_heard(phase, &what, cue_ball) && !returns {
             heard.push(fact);
         }
         let call = referee.call().cloned();
@@ -227,7 +231,8 @@ fn hear(
     }
 }
 
-const CHOICES: [Choice; 11] = [
+const CHOICES: [Choice; 12] = [
+    Choice::PutBack,
     Choice::Accept,
     Choice::CueInHandKitchen,
     Choice::RerackAndBreak,

@@ -1,0 +1,79 @@
+//! Spots: where balls return to the table.
+
+use super::{nearest_on_line, spot_position};
+use crate::ids::BallId;
+use crate::table::Bed;
+use glam::DVec2;
+use smallvec::SmallVec;
+
+/// The spots that a set of balls has.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum Spots {
+    /// One for all: the foot spot.
+    #[default]
+    Foot,
+    /// One for each colour of snooker, 16 to 21: yellow, green, brown, blue, pink, black.
+    Snooker,
+}
+
+/// The colours of snooker, from the lowest value to the highest.
+const COLOURS: std::ops::RangeInclusive<u16> = 16..=21;
+
+/// The black's spot in front of the top cushion over the bed's length: 12¾ of 140½ inches.
+const BLACK_FROM_TOP: f64 = 12.75 / 140.5;
+
+impl Spots {
+    /// A ball's own spot [m].
+    pub fn of(self, bed: &Bed, ball: BallId) -> DVec2 {
+        let baulk = DVec2::new(bed.baulk_line_x(), 0.0);
+        match (self, ball.0) {
+            (Spots::Snooker, 16) => baulk - DVec2::Y * bed.d_radius_m(),
+            (Spots::Snooker, 17) => baulk + DVec2::Y * bed.d_radius_m(),
+            (Spots::Snooker, 18) => baulk,
+            (Spots::Snooker, 19) => DVec2::ZERO,
+            (Spots::Snooker, 21) => DVec2::new((0.5 - BLACK_FROM_TOP) * bed.length_m, 0.0),
+            // The pink's is in the middle between the centre and the top cushion.
+            _ => bed.foot_spot(),
+        }
+    }
+
+    /// Where a ball is spotted, given the places and radii of the others [m].
+    ///
+    /// In pool see [`spot_position`]. A colour of snooker goes to its own spot; if that is occupied
+    /// to the free spot of the highest value; if all are, as near to its own spot as possible on
+    /// the line to the top cushion, or else on the line away from it (rules of the WPBSA on
+    /// spotting colours).
+    pub fn place(self, bed: &Bed, ball: BallId, occupied: &[(DVec2, f64)], radius_m: f64) -> DVec2 {
+        if self == Spots::Foot || !COLOURS.contains(&ball.0) {
+            return spot_position(bed, occupied.iter().copied(), radius_m);
+        }
+        let own = self.of(bed, ball);
+        let highest_first = COLOURS.rev().map(|id| self.of(bed, BallId(id)));
+        std::iter::once(own)
+            .chain(highest_first)
+            .find(|spot| is_free(*spot, occupied, radius_m))
+            .unwrap_or_else(|| nearest_on_line(bed, own, occupied, radius_m))
+    }
+
+    /// The order in which balls are spotted. In snooker those whose own spots are free come first,
+    /// then the others from the highest value down (rules of the WPBSA on spotting colours).
+    pub fn in_order(
+        self,
+        bed: &Bed,
+        balls: &[BallId],
+        occupied: &[(DVec2, f64)],
+        radius_m: f64,
+    ) -> SmallVec<[BallId; 4]> {
+        let mut order = SmallVec::from_slice(balls);
+        if self == Spots::Snooker {
+            let waits = |ball: BallId| !is_free(self.of(bed, ball), occupied, radius_m);
+            order.sort_by_key(|ball| (waits(*ball), std::cmp::Reverse(*ball)));
+        }
+        order
+    }
+}
+
+/// Whether a ball can stand here without touching another.
+fn is_free(place: DVec2, occupied: &[(DVec2, f64)], radius_m: f64) -> bool {
+    occupied.iter().all(|(other, radius)| place.distance(*other) > radius_m + radius)
+}
