@@ -18,8 +18,8 @@ pub(super) struct Placing {
 }
 
 impl Placing {
-    /// Takes the ball up from where it lies, or brings it to its zone; to the tee [m] where there is
-    /// no bed.
+    /// Takes the ball up from where it lies, or brings it to its zone; to the tee [m] where there
+    /// is no bed.
     pub fn new(zone: Zone, on_table: &Snapshot, bed: Option<&Bed>, tee: DVec2) -> Self {
         let lies = cue_ball(on_table).map(|ball| ball.truncate());
         let home = bed.map_or(tee, |bed| bed.home(zone));
