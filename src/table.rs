@@ -210,8 +210,8 @@ impl Bed {
         DVec2::new(self.head_string_x(), 0.0)
     }
 
-    /// Where a ball in hand is held at first [m]: over the head spot; for the D on the baulk line, in
-    /// the middle between the brown and the yellow ball's spots.
+    /// Where a ball in hand is held at first [m]: over the head spot; for the D on the baulk line,
+    /// in the middle between the spots of the brown and the yellow.
     pub fn home(&self, zone: Zone) -> DVec2 {
         match zone {
             Zone::D => DVec2::new(self.baulk_line_x(), -0.5 * self.d_radius_m()),
