@@ -28,10 +28,12 @@ of `simulate` are passed over. Besides facts a line may be
   {\"state\":{\"player\":2,..}}            goes on from another state
 
 Examples:
-  (echo '{\"state\":{\"on_table\":[\"3\",\"8\"]}}'; echo '{\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}'
-   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}'; echo '{\"t\":1,\"e\":\"hit\",\"a\":\"0\",\"b\":\"3\"}'
-   echo '{\"t\":2,\"e\":\"pocket\",\"ball\":\"3\",\"pocket\":\"FL\"}'; echo '{\"t\":3,\"e\":\"settle\"}') |
-    hapticbillard rules --game wpa8 --why
+  (echo '{\"state\":{\"on_table\":[\"3\",\"8\"]}}'
+   echo '{\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}'
+   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}'
+   echo '{\"t\":1,\"e\":\"hit\",\"a\":\"0\",\"b\":\"3\"}'
+   echo '{\"t\":2,\"e\":\"pocket\",\"ball\":\"3\",\"pocket\":\"FL\"}'
+   echo '{\"t\":3,\"e\":\"settle\"}') | hapticbillard rules --game wpa8 --why
   hapticbillard rules --game paper8 --why facts.jsonl
   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}' | hapticbillard rules
   hapticbillard simulate --scene break_shot --json | hapticbillard rules --game free_play
