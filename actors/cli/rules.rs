@@ -175,10 +175,12 @@ impl Session<'_> {
             let call = answer.call.as_ref().map(|call| self.texts.call(call));
             let turn = answer.turn.as_ref().map(|turn| self.texts.turn(turn));
             let said: Vec<String> = call.into_iter().chain(turn).collect();
-            return Ok(match said.is_empty() {
-                true => writeln!(out, "{phase:?}")?,
-                false => writeln!(out, "{phase:?}: {}", said.join(" "))?,
-            });
+            if said.is_empty() {
+                writeln!(out, "{phase:?}")?;
+            } else {
+                writeln!(out, "{phase:?}: {}", said.join(" "))?;
+            }
+            return Ok(());
         };
         writeln!(out, "{:?}: {}", answer.phase, self.texts.verdict(verdict))?;
         if self.args.why {

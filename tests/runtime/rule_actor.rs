@@ -210,7 +210,8 @@ async fn stopped_in_the_middle_it_answers_what_it_has_taken_and_refuses_the_rest
             }
         }
         actor.wait_for_shutdown().await;
-        let late = (pair.ask)(pair.mail(&mut rng, &swarm, 41)).answer().await;
+        let mail = pair.mail(&mut rng, &swarm, 41);
+        let late = (pair.ask)(mail).answer().await;
         assert!(late.is_err(), "FUZZ_SEED={seed}: it was stopped and lives on");
     }
     assert!(answered > 1000 && refused > 1000, "{answered} answered, {refused} refused");
