@@ -200,7 +200,7 @@ fn form_of(scenario: &Scenario, verdict: &Verdict) -> Map<String, Value> {
 
 /// The keys that an expectation can have. One that is absent expects null, none, empty, false or
 /// 0; only what becomes of the turn has no such value and is then not compared.
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "legal",
     "fouls",
     "turn",
@@ -216,6 +216,7 @@ const KEYS: [&str; 15] = [
     "ball_on_next",
     "free_ball",
     "pocketed",
+    "rack",
 ];
 
 fn compare(expected: &Map<String, Value>, got: &Map<String, Value>) -> Vec<Difference> {
@@ -224,8 +225,9 @@ fn compare(expected: &Map<String, Value>, got: &Map<String, Value>) -> Vec<Diffe
         Difference { key: key.clone(), problem }
     });
     let keys = KEYS.into_iter().filter(|key| {
-        // The file format has no list of what fell; who writes one gets it compared.
-        let is_optional = ["turn", "pocketed"].contains(key);
+        // The file format says nothing of what fell and what is racked; who writes it gets it
+        // compared.
+        let is_optional = ["turn", "pocketed", "rack"].contains(key);
         !is_optional || expected.contains_key(*key)
     });
     let different = keys.filter_map(|key| {

@@ -161,7 +161,11 @@ fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_ki
 
 /// A ball is down once: what is told again changes nothing.
 fn watch_pocketed(shot: &mut Shot, new: Pocketed) {
-    if shot.pocketed.iter().any(|old| old.ball == new.ball) {
+    if let Some(old) = shot.pocketed.iter_mut().find(|old| old.ball == new.ball) {
+        // No order of facts at one time decides which pocket counts.
+        if old.time_s == new.time_s {
+            old.pocket = old.pocket.min(new.pocket);
+        }
         return;
     }
     let place = shot.pocketed.partition_point(|old| {

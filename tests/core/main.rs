@@ -26,6 +26,8 @@ mod minigolf;
 mod physics;
 /// The laws that a scene chooses.
 mod physics_laws;
+/// What follows from a verdict in the pool games.
+mod pool_rules;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
 /// What a picture shows.

@@ -15,6 +15,8 @@ mod enumerate;
 mod paper;
 /// One game of random events.
 mod play;
+/// What must hold in nine-ball and straight pool.
+mod pool;
 /// Shots as good players make them.
 mod script;
 

@@ -179,8 +179,8 @@ fn judge_colours(state: &State, call: Option<&Call>, shot: &Shot, verdict: Verdi
     Verdict { next_player: Some(other), ..verdict }
 }
 
-/// The cue ball may meet first: anything but the 8 on an open table, then an own ball, and the 8
-/// when no own ball was left before the shot.
+/// The cue ball may meet first: any colour on an open table, then an own ball, and the 8 when no
+/// own ball was left before the shot.
 fn may_be_first(state: &State, ball: BallId) -> bool {
     if state.is_break() {
         return true;
@@ -278,8 +278,14 @@ fn own_group(state: &State) -> Option<Group> {
     groups(state).of(state.player)
 }
 
-/// Whether the player at the table has a group and none of it was left before the shot.
+/// Whether none of the own group was left before the shot; without groups, whether no colour was
+/// left at all: nobody could go on otherwise.
 fn own_group_is_gone(state: &State) -> bool {
-    own_group(state)
-        .is_some_and(|own| !state.on_table.iter().any(|ball| Group::of(*ball) == Some(own)))
+    let own = own_group(state);
+    let is_own = |ball: &BallId| match (Group::of(*ball), own) {
+        (Some(group), Some(own)) => group == own,
+        (group, None) => group.is_some(),
+        (None, Some(_)) => false,
+    };
+    !state.on_table.iter().any(is_own)
 }

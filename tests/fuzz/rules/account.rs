@@ -1,7 +1,7 @@
 //! A game as somebody who does not trust the referee writes it down: what must hold in every game.
 
-use super::paper;
 use super::play::Tally;
+use super::{paper, pool};
 use hapticbillard::events::{
     BallInHand, Call, Choice, Command, Event, Fact, FactKind, Groups, Racked, Turn, TurnAfter,
     Verdict,
@@ -27,7 +27,7 @@ pub struct Account {
     pub is_break: bool,
     pub shot_number: u32,
     /// What the referee went by before the shot.
-    state: State,
+    pub state: State,
     /// What the special accounts of some games remember.
     pub paper: paper::Memory,
 }
@@ -122,6 +122,8 @@ impl Account {
         match self.kind {
             GameKind::PaperEightBall => paper::check_eight_ball(self, verdict, &fate)?,
             GameKind::FreePlay => paper::check_free_play(verdict, &fate)?,
+            GameKind::WpaNineBall => pool::check_nine_ball(self, call, verdict, &fate)?,
+            GameKind::Straight => pool::check_straight(self, call, verdict, &fate)?,
             _ => {}
         }
         self.note(verdict, tally);

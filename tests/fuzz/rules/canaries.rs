@@ -1,7 +1,7 @@
 //! Each of these judges is wrong in one point; if the account did not notice, it would be blind.
 
 use super::play::play;
-use hapticbillard::events::{Groups, TurnAfter, Verdict};
+use hapticbillard::events::{Foul, Groups, TurnAfter, Verdict};
 use hapticbillard::ids::BallId;
 use hapticbillard::rules::{GameKind, Judge, Shot, State, game, judge};
 use rand::SeedableRng;
@@ -9,7 +9,12 @@ use rand_pcg::Pcg64Mcg;
 
 #[test]
 fn a_wrong_judge_is_found_out() {
-    for (kind, wrong) in [(GameKind::PaperEightBall, &PAPER[..]), (GameKind::WpaEightBall, &WPA)] {
+    for (kind, wrong) in [
+        (GameKind::PaperEightBall, &PAPER[..]),
+        (GameKind::WpaEightBall, &WPA),
+        (GameKind::WpaNineBall, &NINE),
+        (GameKind::Straight, &STRAIGHT),
+    ] {
         assert_eq!(found_out(kind, game(kind).judge), None);
         for (name, judge) in wrong {
             assert!(found_out(kind, *judge).is_some(), "{kind}: nobody noticed: {name}");
@@ -88,5 +93,42 @@ const WPA: [(&str, Judge); 4] = [
             }
             _ => verdict,
         }
+    }),
+];
+
+const NINE: [(&str, Judge); 3] = [
+    ("the 9 wins on a push-out", |state, call, shot| {
+        let state = State { after_break: false, ..state.clone() };
+        judge(GameKind::WpaNineBall, &state, call, shot)
+    }),
+    ("a third foul is one like any other", |state, call, shot| {
+        let state = State { warned: false, ..state.clone() };
+        judge(GameKind::WpaNineBall, &state, call, shot)
+    }),
+    ("the 9 stays down on a foul", |state, call, shot| Verdict {
+        spot: Default::default(),
+        ..judge(GameKind::WpaNineBall, state, call, shot)
+    }),
+];
+
+const STRAIGHT: [(&str, Judge); 3] = [
+    ("any ball is a point", |state, call, shot| {
+        let verdict = judge(GameKind::Straight, state, call, shot);
+        let fallen = verdict.pocketed.len() as i32;
+        match verdict.legal {
+            true => Verdict { points: verdict.points.with(state.player, fallen), ..verdict },
+            false => verdict,
+        }
+    }),
+    ("a breaking foul counts among three", |state, call, shot| {
+        let verdict = judge(GameKind::Straight, state, call, shot);
+        match verdict.fouls.contains(&Foul::IllegalBreak) {
+            true => Verdict { fouls_after: verdict.fouls_after.with(state.player, 1), ..verdict },
+            false => verdict,
+        }
+    }),
+    ("the last ball is played without a rack", |state, call, shot| Verdict {
+        rack: None,
+        ..judge(GameKind::Straight, state, call, shot)
     }),
 ];

@@ -4,7 +4,7 @@ use super::account::Account;
 use super::play::Tally;
 use super::script::{cushion, down, met, struck};
 use hapticbillard::events::{
-    BallInHand, Call, Choice, Command, Event, Fact, FactKind, Source, Zone,
+    BallInHand, ByPlayer, Call, Choice, Command, Event, Fact, FactKind, Source, Zone,
 };
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId, PocketId, Rail};
@@ -46,7 +46,13 @@ fn starts(kind: GameKind) -> Vec<State> {
     let sets: [&[u16]; 4] = [&[1, 8, 9], &[1, 9], &[8, 9], &[8]];
     let of = |balls: &[u16]| {
         let balls = balls.iter().copied().filter(|ball| *ball <= game(kind).balls).chain([0]);
-        State::opening(kind, PlayerId::ONE, balls.map(BallId))
+        let state = State::opening(kind, PlayerId::ONE, balls.map(BallId));
+        // So near its end that a race is won.
+        let score = match kind {
+            GameKind::Straight => ByPlayer { one: 98, two: 98 },
+            _ => ByPlayer::default(),
+        };
+        State { score, ..state }
     };
     sets.iter().map(|balls| of(balls)).collect()
 }
