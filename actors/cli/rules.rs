@@ -28,10 +28,12 @@ of `simulate` are passed over. Besides facts a line may be
   {\"state\":{\"player\":2,..}}            goes on from another state
 
 Examples:
-  (echo '{\"state\":{\"on_table\":[\"3\",\"8\"]}}'; echo '{\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}'
-   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}'; echo '{\"t\":1,\"e\":\"hit\",\"a\":\"0\",\"b\":\"3\"}'
-   echo '{\"t\":2,\"e\":\"pocket\",\"ball\":\"3\",\"pocket\":\"FL\"}'; echo '{\"t\":3,\"e\":\"settle\"}') |
-    hapticbillard rules --game wpa8 --why
+  (echo '{\"state\":{\"on_table\":[\"3\",\"8\"]}}'
+   echo '{\"call\":{\"ball\":\"3\",\"pocket\":\"FL\"}}'
+   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}'
+   echo '{\"t\":1,\"e\":\"hit\",\"a\":\"0\",\"b\":\"3\"}'
+   echo '{\"t\":2,\"e\":\"pocket\",\"ball\":\"3\",\"pocket\":\"FL\"}'
+   echo '{\"t\":3,\"e\":\"settle\"}') | hapticbillard rules --game wpa8 --why
   hapticbillard rules --game paper8 --why facts.jsonl
   echo '{\"t\":0,\"e\":\"tip\",\"ball\":\"0\"}' | hapticbillard rules
   hapticbillard simulate --scene break_shot --json | hapticbillard rules --game free_play
@@ -173,10 +175,12 @@ impl Session<'_> {
             let call = answer.call.as_ref().map(|call| self.texts.call(call));
             let turn = answer.turn.as_ref().map(|turn| self.texts.turn(turn));
             let said: Vec<String> = call.into_iter().chain(turn).collect();
-            return Ok(match said.is_empty() {
-                true => writeln!(out, "{phase:?}")?,
-                false => writeln!(out, "{phase:?}: {}", said.join(" "))?,
-            });
+            if said.is_empty() {
+                writeln!(out, "{phase:?}")?;
+            } else {
+                writeln!(out, "{phase:?}: {}", said.join(" "))?;
+            }
+            return Ok(());
         };
         writeln!(out, "{:?}: {}", answer.phase, self.texts.verdict(verdict))?;
         if self.args.why {

@@ -158,7 +158,7 @@ impl FeltMouse {
                 self.held = Buttons::default();
                 MouseMove::Held(self.held)
             }
-            RawInput::Key { .. } => return,
+            RawInput::Key { .. } | RawInput::Picked { .. } => return,
         };
         // A full ring loses movements; whatever is held is said again with the next button.
         let _ = self.port.say(heard);

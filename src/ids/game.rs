@@ -59,6 +59,24 @@ macro_rules! kinds {
 
 for_all_games!(kinds);
 
+impl GameKind {
+    /// The rack that a scene of the game begins with, by its name there; none if any balls will do.
+    pub fn rack(self) -> Option<&'static str> {
+        match self {
+            GameKind::PaperEightBall | GameKind::WpaEightBall | GameKind::Straight => {
+                Some("eight-ball")
+            }
+            GameKind::WpaNineBall => Some("nine-ball"),
+            GameKind::FreePlay | GameKind::Training => None,
+        }
+    }
+
+    /// How many play at least; never more than two.
+    pub fn players_min(self) -> usize {
+        if self.rack().is_some() { 2 } else { 1 }
+    }
+}
+
 impl fmt::Display for GameKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.id())

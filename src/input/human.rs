@@ -149,13 +149,6 @@ impl Human {
         self
     }
 
-    /// The same for training: any ball can be put anywhere, and shots can be taken back.
-    #[must_use]
-    pub fn for_practice(mut self) -> Self {
-        self.is_practice = true;
-        self
-    }
-
     /// What the player does in `tick`, given what the devices said since the tick before.
     ///
     /// While time stands still it is asked on and on for one tick; what it answers then counts
@@ -179,12 +172,6 @@ impl Human {
         // A person may act in any tick.
         let next = Some(tick.after(1));
         Inflow { frame, next, paused: self.paused, hurried: self.is_hurried(), quit }
-    }
-
-    /// Whether the player would rather not wait. Whoever holds the cue has all the time there is.
-    fn is_hurried(&self) -> bool {
-        let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
-        waits && !self.paused && self.held.has(Key::Letter('f'))
     }
 
     /// What the picture shows of the player now.
@@ -527,21 +514,9 @@ impl Human {
         }
     }
 
-    /// Takes a ball in hand.
-    fn hold(&mut self, ball: BallId, zone: Zone) {
-        let bed = self.table.bed.as_ref();
-        self.stage = Stage::Placing(Placing::new(ball, zone, &self.seen, bed, self.tee));
-    }
-
     /// The ball that is struck in this turn.
     fn cue_ball(&self) -> BallId {
         self.turn.as_ref().map_or(BallId::CUE, |turn| turn.cue_ball)
-    }
-
-    /// Horizontal unit vector of the aim.
-    fn aimed_along(&self) -> DVec2 {
-        let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
-        DVec2::new(cos, sin)
     }
 
     /// Puts the cue behind the cue ball.
@@ -559,22 +534,6 @@ impl Human {
         self.change_aim(|_| {});
         self.is_aim_new = true;
         self.sight();
-    }
-
-    /// A ball was put down.
-    fn placed(&mut self, ball: BallId, ok: bool) {
-        let cue_ball = self.cue_ball();
-        match &mut self.stage {
-            Stage::Placing(placing) if placing.ball == ball => {
-                placing.is_put = false;
-                if ok {
-                    self.address();
-                }
-            }
-            // A shot was taken back: it lies elsewhere now.
-            Stage::Aiming if ball == cue_ball => self.address(),
-            _ => {}
-        }
     }
 
     /// A ball was struck: takes the cue back before it can touch it again.

@@ -66,6 +66,10 @@ impl Scoreboard {
                 self.groups = turn.groups;
                 self.is_rolling = false;
                 self.call = None;
+                // A choice was taken: that there was one is old now.
+                if turn.options.is_empty() {
+                    self.verdict.take_if(|verdict| !verdict.options.is_empty());
+                }
                 self.turn = Some(turn.clone());
             }
             Event::Verdict(verdict) => {

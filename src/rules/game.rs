@@ -31,10 +31,6 @@ pub struct Game {
     pub balls: u16,
     /// Names of balls in rule files, where these are no numbers; the first is ball 0.
     pub names: &'static [&'static str],
-    /// The rack that the game begins with, by its name in a scene; none if any balls will do.
-    pub rack: Option<&'static str>,
-    /// How many play at least; never more than two.
-    pub players: usize,
     /// Whether players have points.
     pub has_score: bool,
     /// Any ball may be put anywhere, and shots are taken back.
@@ -75,8 +71,6 @@ impl Game {
         facts: &[],
         balls: 15,
         names: &[],
-        rack: None,
-        players: 1,
         has_score: false,
         is_practice: false,
         ends: "Settled, somebody has won",

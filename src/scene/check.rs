@@ -166,15 +166,14 @@ fn game(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
 
 /// Why a scene is none of a game, and what helps; none if it is one.
 pub(super) fn misfit(scene: &Scene, game: GameKind) -> Option<(String, String)> {
-    let needs = crate::rules::game(game);
     let rack = scene.balls.as_ref().map(|balls| balls.rack.name());
-    if let Some(wanted) = needs.rack
+    if let Some(wanted) = game.rack()
         && rack != Some(wanted)
     {
         let fix = format!("write [balls] and rack = {wanted:?}");
         return Some((format!("{game} begins with its rack"), fix));
     }
-    if scene.players.len() < needs.players {
+    if scene.players.len() < game.players_min() {
         let fix = "write a second [[player]]".to_string();
         return Some((format!("{game} has two players"), fix));
     }

@@ -26,7 +26,7 @@ impl Overrides {
     pub fn apply(&self, scene: &mut Scene) {
         if let (Some(game), Some(rules)) = (self.game, &mut scene.rules) {
             rules.game = game;
-            let rack = crate::rules::game(game).rack.and_then(RackKind::named);
+            let rack = game.rack().and_then(RackKind::named);
             if let (Some(rack), Some(balls)) = (rack, &mut scene.balls) {
                 balls.rack = rack;
             }

@@ -379,7 +379,8 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
             )
         };
         let wrong = format!(
-            "8: rules.game = {game:?}: {game} begins with its rack; write [balls] and rack = {rack:?}"
+            "8: rules.game = {game:?}: {game} begins with its rack; write [balls] and rack = \
+             {rack:?}"
         );
         after_head(&with(other, two), &wrong);
         let wrong =

@@ -5,8 +5,51 @@ use super::{Human, Stage};
 use crate::events::{Command, Zone};
 use crate::ids::BallId;
 use crate::input::Key;
+use crate::input::placing::Placing;
+use glam::DVec2;
 
 impl Human {
+    /// Horizontal unit vector of the aim.
+    pub(super) fn aimed_along(&self) -> DVec2 {
+        let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
+        DVec2::new(cos, sin)
+    }
+
+    /// The same for training: any ball can be put anywhere, and shots can be taken back.
+    #[must_use]
+    pub fn for_practice(mut self) -> Self {
+        self.is_practice = true;
+        self
+    }
+
+    /// Whether the player would rather not wait. Whoever holds the cue has all the time there is.
+    pub(super) fn is_hurried(&self) -> bool {
+        let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
+        waits && !self.paused && self.held.has(Key::Letter('f'))
+    }
+
+    /// A ball was put down.
+    pub(super) fn placed(&mut self, ball: BallId, ok: bool) {
+        let cue_ball = self.cue_ball();
+        match &mut self.stage {
+            Stage::Placing(placing) if placing.ball == ball => {
+                placing.is_put = false;
+                if ok {
+                    self.address();
+                }
+            }
+            // A shot was taken back: it lies elsewhere now.
+            Stage::Aiming if ball == cue_ball => self.address(),
+            _ => {}
+        }
+    }
+
+    /// Takes a ball in hand.
+    pub(super) fn hold(&mut self, ball: BallId, zone: Zone) {
+        let bed = self.table.bed.as_ref();
+        self.stage = Stage::Placing(Placing::new(ball, zone, &self.seen, bed, self.tee));
+    }
+
     /// Takes an option, if there is one of this number.
     pub(super) fn pick(&mut self, option: usize) {
         let turn = self.turn.as_ref().filter(|_| matches!(self.stage, Stage::Choosing));

@@ -22,8 +22,6 @@ pub const GAME: Game = Game {
     facts: &[Topic::BallsCollided],
     ends: "Settled, the 8 is gone or 60 turns were dry",
     in_hand: "Turn, cue ball in hand (break, foul, placement refused)",
-    rack: Some("eight-ball"),
-    players: 2,
     ..Game::USUAL
 };
 

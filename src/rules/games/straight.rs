@@ -25,8 +25,6 @@ pub const GAME: Game = Game {
     choose,
     calls: |_| Calls { ball: true, pocket: true, safety: true, push_out: false },
     facts: &[Topic::BallsCollided, Topic::CushionHit, Topic::HeadStringCrossed],
-    rack: Some("eight-ball"),
-    players: 2,
     has_score: true,
     ends: "Settled, somebody has 100 points",
     in_hand: "Turn, cue ball in hand (break, scratch, in the way of the rack, placement refused)",

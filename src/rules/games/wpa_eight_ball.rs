@@ -32,8 +32,6 @@ pub const GAME: Game = Game {
     facts: &[Topic::BallsCollided, Topic::CushionHit, Topic::HeadStringCrossed],
     ends: "Settled, the 8 is gone after the break",
     in_hand: "Turn, cue ball in hand (break, foul, placement refused)",
-    rack: Some("eight-ball"),
-    players: 2,
     ..Game::USUAL
 };
 

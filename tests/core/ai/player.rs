@@ -6,14 +6,15 @@ use hapticbillard::ai::{Player, PlayerSettings, Stroke, TableView2d};
 use hapticbillard::ball::{BallPlace, BallState, Motion};
 use hapticbillard::cue::{CuePath, CuePose};
 use hapticbillard::events::{
-    BallInHand, Command, Event, Fact, FactKind, PlayerState, ShotKind, Source, Stamp, Stamped,
-    Turn, Verdict,
+    BallInHand, Call, CallKind, Calls, Choice, Command, Event, Fact, FactKind, PlayerState,
+    ShotKind, Source, Stamp, Stamped, Turn, Verdict,
 };
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId};
 use hapticbillard::physics::{Profile, Snapshot};
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use hapticbillard::units::Tick;
+use smallvec::smallvec;
 use std::sync::Arc;
 
 const ME: PlayerId = PlayerId::ONE;
@@ -40,6 +41,8 @@ struct Script {
     strokes: Vec<Stroke>,
     hashes: Vec<Digest>,
     cue_lifted: u32,
+    chosen: Vec<(Choice, Tick)>,
+    called: Vec<(Call, Tick)>,
 }
 
 fn ball(id: BallId, position: DVec2, place: BallPlace) -> BallState {
@@ -91,6 +94,8 @@ impl Script {
             strokes: vec![],
             hashes: vec![],
             cue_lifted: 0,
+            chosen: vec![],
+            called: vec![],
         }
     }
 
@@ -169,6 +174,8 @@ impl Script {
                 self.cue = None;
                 self.cue_lifted += 1;
             }
+            Event::Command(Command::Choose(choice)) => self.chosen.push((*choice, self.now)),
+            Event::Command(Command::Call(call)) => self.called.push((call.clone(), self.now)),
             Event::Command(Command::PlaceBall { ball, position_m, zone }) => {
                 let ok = self.refuse == 0;
                 self.refuse = self.refuse.saturating_sub(1);
@@ -312,6 +319,75 @@ fn the_other_players_turn_is_none_of_its_business() {
     script.step();
     assert_eq!(script.names(), [Lazing, Aiming, Idle]);
     assert!(script.cue.is_none());
+}
+
+/// A turn with changes.
+fn turn_with(view: &TableView2d, change: impl FnOnce(&mut Turn)) -> Event {
+    let Event::Turn(turn) = turn(ME, view, BallInHand::None) else { unreachable!() };
+    let mut turn = (*turn).clone();
+    change(&mut turn);
+    Event::Turn(Arc::new(turn))
+}
+
+#[test]
+fn a_choice_is_taken_after_a_pause_before_anything_else_and_said_until_it_is_heard() {
+    let view = random_view(5, 6);
+    let mut script = Script::new(7, snapshot(&view, BallPlace::OnTable));
+    let options = smallvec![Choice::Accept, Choice::RerackAndBreak, Choice::RerackOpponentBreaks];
+    let choosing = turn_with(&view, |turn| {
+        turn.options = options;
+        turn.ball_in_hand = BallInHand::Kitchen;
+    });
+    script.mail.push(choosing);
+    let begun = script.now;
+    for _ in 0..3 {
+        while script.chosen.is_empty() {
+            assert!(script.step());
+        }
+        let (choice, at) = script.chosen.remove(0);
+        assert_eq!(choice, Choice::RerackAndBreak);
+        assert!(at.0 >= begun.0 + 400, "nobody decides at once");
+    }
+    assert!(script.placed.is_empty() && script.strokes.is_empty());
+    // Heard: the turn that follows is played.
+    script.mail.push(turn_with(&view, |turn| turn.shot = ShotKind::Break));
+    script.run_to(Analyzing);
+    assert!(script.chosen.is_empty() && script.strokes.len() == 1);
+}
+
+#[test]
+fn what_is_planned_is_called_long_before_the_stroke_as_far_as_it_may_be() {
+    let pool = Calls { ball: true, pocket: true, safety: true, push_out: false };
+    let mut kinds = std::collections::BTreeSet::new();
+    for seed in 0..40 {
+        let view = random_view(seed, 6);
+        let play = |calls: Calls| {
+            let mut script = Script::new(seed, snapshot(&view, BallPlace::OnTable));
+            script.mail.push(turn_with(&view, |turn| {
+                turn.calls = calls;
+                turn.legal_first.truncate(1);
+            }));
+            script.run_to(Analyzing);
+            script
+        };
+        let script = play(pool);
+        let plan = script.player.plan().unwrap();
+        let (call, at) = script.called[0].clone();
+        let shooting = script.states.iter().find(|(state, _)| *state == Shooting).unwrap().1;
+        assert!(at.0 + 100 < shooting.0, "called at {}, struck at {}", at.0, shooting.0);
+        kinds.insert(matches!(call, Call::Ball { .. }));
+        match call {
+            Call::Ball { ball, pocket } => {
+                assert_eq!((Some(ball), pocket), (plan.target, plan.pocket));
+                assert!(pocket.is_some());
+            }
+            Call::Kind(kind) => assert_eq!((kind, plan.pocket), (CallKind::Safety, None)),
+        }
+        assert!(play(Calls::default()).called.is_empty(), "nobody asked");
+        let named = play(Calls { ball: true, ..Calls::default() }).called[0].0.clone();
+        assert_eq!(named, Call::Ball { ball: plan.target.unwrap(), pocket: None });
+    }
+    assert_eq!(kinds.len(), 2, "pots and safeties");
 }
 
 #[test]
