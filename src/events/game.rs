@@ -51,8 +51,8 @@ pub struct Racking {
 pub enum Racked {
     /// Every ball, as at the start of a game.
     All,
-    /// Straight pool: fourteen balls without the apex, or all if none is left. The one that is left,
-    /// and the cue ball, stay where they are unless they are in the way: see
+    /// Straight pool: fourteen balls without the apex, or all if none is left. The one that is
+    /// left, and the cue ball, stay where they are unless they are in the way: see
     /// [`crate::rack::next_rack`].
     Fourteen,
 }

@@ -307,7 +307,7 @@ fn choices_warnings_and_points_are_put_in_words() {
     let after_break = shot(&mut referee, &[&[HIT_1][..], &FOUR_RAILS[..]].concat());
     assert_eq!(
         texts.turn(&after_break.turn.unwrap()),
-        "Player 2 to shoot. Player 2 may announce a push-out."
+        "Player 2 to shoot. The 1 is on. Player 2 may announce a push-out."
     );
     call(&mut referee, push_out());
     let pushed = shot(&mut referee, &[HIT_7]);

@@ -175,7 +175,8 @@ fn is_stalemate(state: &State, shot: &Shot) -> bool {
     state.dry_turns_after(shot) >= DRY_TURNS_MAX
 }
 
-/// The 9 is spotted if it falls on a foul or a push-out, or leaves the table. No other ball is.
+/// The 9 is spotted if it falls on a foul or a push-out, or leaves the table. No other ball ever
+/// is.
 fn spotted(shot: &Shot) -> SmallVec<[BallId; 4]> {
     let is_gone = shot.has_pocketed(BallId::NINE) || shot.off.contains(&BallId::NINE);
     is_gone.then_some(BallId::NINE).into_iter().collect()
