@@ -4,32 +4,33 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 use std::fmt;
 use std::str::FromStr;
 
-/// All games: the name in code, in scene files, in JSON, and the file in `src/rules/games`. A new
-/// game is a file there and a line here.
+/// All games: the name in code, in scene files, in JSON, that of the rack that a scene begins with
+/// (none if any balls will do), and the file in `src/rules/games`. A new game is a file there and a
+/// line here.
 macro_rules! for_all_games {
     ($then:ident) => {
         $then! {
             /// The reduced eight-ball of the 2009 paper (section 5.2).
-            PaperEightBall "paper-eight-ball" "paper8" paper_eight_ball;
+            PaperEightBall "paper-eight-ball" "paper8" "eight-ball" paper_eight_ball;
             /// Eight-ball by the rules of the WPA.
-            WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
+            WpaEightBall "wpa-eight-ball" "wpa8" "eight-ball" wpa_eight_ball;
             /// Nine-ball by the rules of the WPA.
-            WpaNineBall "wpa-nine-ball" "wpa9" wpa_nine_ball;
+            WpaNineBall "wpa-nine-ball" "wpa9" "nine-ball" wpa_nine_ball;
             /// Straight pool, 14.1 continuous, by the rules of the WPA.
-            Straight "straight" "straight" straight;
+            Straight "straight" "straight" "eight-ball" straight;
             /// Snooker by the rules of the WPBSA.
-            Snooker "snooker" "snooker" snooker;
+            Snooker "snooker" "snooker" "snooker" snooker;
             /// Everybody for himself, without fouls.
-            FreePlay "free-play" "free_play" free_play;
+            FreePlay "free-play" "free_play" "" free_play;
             /// Practice: any ball is put anywhere, shots are taken back.
-            Training "training" "training" training;
+            Training "training" "training" "" training;
         }
     };
 }
 pub(crate) use for_all_games;
 
 macro_rules! kinds {
-    ($($(#[$about:meta])* $kind:ident $id:literal $short:literal $file:ident;)*) => {
+    ($($(#[$about:meta])* $kind:ident $id:literal $short:literal $rack:literal $file:ident;)*) => {
         /// A game whose rules are known.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum GameKind {
@@ -53,6 +54,12 @@ macro_rules! kinds {
                     $(GameKind::$kind => $short,)*
                 }
             }
+
+            fn named_rack(self) -> &'static str {
+                match self {
+                    $(GameKind::$kind => $rack,)*
+                }
+            }
         }
     };
 }
@@ -62,13 +69,7 @@ for_all_games!(kinds);
 impl GameKind {
     /// The rack that a scene of the game begins with, by its name there; none if any balls will do.
     pub fn rack(self) -> Option<&'static str> {
-        match self {
-            GameKind::PaperEightBall | GameKind::WpaEightBall | GameKind::Straight => {
-                Some("eight-ball")
-            }
-            GameKind::WpaNineBall => Some("nine-ball"),
-            GameKind::FreePlay | GameKind::Training => None,
-        }
+        Some(self.named_rack()).filter(|name| !name.is_empty())
     }
 
     /// How many play at least; never more than two.

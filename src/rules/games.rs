@@ -4,7 +4,7 @@ use super::game::Game;
 use crate::ids::{GameKind, for_all_games};
 
 macro_rules! games {
-    ($($(#[$about:meta])* $kind:ident $id:literal $short:literal $file:ident;)*) => {
+    ($($(#[$about:meta])* $kind:ident $id:literal $short:literal $rack:literal $file:ident;)*) => {
         $(mod $file;)*
 
         /// What distinguishes a game from the others.
