@@ -11,6 +11,8 @@ mod control;
 mod device;
 mod keeper;
 mod ports;
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 mod rights;
 mod seat;
 mod stylus;
