@@ -94,7 +94,7 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             let device = MouseDevice { device, moves };
             Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
         }
-        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics | HapticDevice::Haply => {
+        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics(_) | HapticDevice::Haply => {
             Err(NoDevice::NotBuiltIn { name: wanted.name() })
         }
     }
@@ -240,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_is_listed_without_a_specification_is_refused() {
-        for device in [HapticDevice::OpenHaptics, HapticDevice::Haply] {
+        for device in [HapticDevice::OpenHaptics(None), HapticDevice::Haply] {
             let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
             assert_eq!(listed.spec, None);
             let error = open(&device).err().unwrap().to_string();
