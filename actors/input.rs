@@ -2,10 +2,11 @@
 //!
 //! Both answer [`FrameOf`]: everything that enters a game from outside enters here.
 
+use crate::haptic::{FeltMouse, Stylus};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::StateHash;
-use hapticbillard::input::{Human, HumanView, RawInput};
+use hapticbillard::input::{Human, HumanView, RawInput, StylusWord};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
 use hapticbillard::units::Tick;
@@ -55,7 +56,7 @@ impl Message<FrameOf> for StandIn {
     }
 }
 
-/// A hand at the mouse and keyboard of a window.
+/// A hand at the mouse and keyboard of a window, and at a stylus where there is one.
 pub struct WindowHand {
     core: Human,
     /// What devices say. The window bounds the channel; when it is full it keeps movements, which
@@ -64,6 +65,9 @@ pub struct WindowHand {
     /// What the hand sees and does, for the picture: only the newest counts.
     view: triple_buffer::Input<HumanView>,
     buffer: Vec<RawInput>,
+    stylus: Option<Stylus>,
+    /// The hand at the haptic device that the mouse moves.
+    felt: Option<FeltMouse>,
 }
 
 impl WindowHand {
@@ -73,7 +77,25 @@ impl WindowHand {
         raw: flume::Receiver<RawInput>,
         view: triple_buffer::Input<HumanView>,
     ) -> Self {
-        WindowHand { core, raw, view, buffer: Vec::new() }
+        WindowHand { core, raw, view, buffer: Vec::new(), stylus: None, felt: None }
+    }
+
+    /// The same with a stylus, and the way of the mouse into its hand, if one leads there.
+    #[must_use]
+    pub fn with_stylus(mut self, stylus: Stylus, felt: Option<FeltMouse>) -> Self {
+        self.core = self.core.with_stylus();
+        if felt.is_some() {
+            self.core = self.core.whose_mouse_is_the_stylus();
+        }
+        (self.stylus, self.felt) = (Some(stylus), felt);
+        self
+    }
+
+    /// What the stylus says in this tick.
+    fn word(&mut self, tick: Tick) -> Option<StylusWord> {
+        let is_paused = self.core.is_paused();
+        let stylus = self.stylus.as_mut()?;
+        if is_paused { stylus.rest() } else { stylus.word(tick) }
     }
 }
 
@@ -81,7 +103,15 @@ impl FrameSource for WindowHand {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.buffer.clear();
         self.buffer.extend(self.raw.try_iter());
-        let inflow = self.core.inflow(tick, &self.buffer);
+        if let Some(felt) = &mut self.felt {
+            self.buffer.iter().for_each(|report| felt.hear(report));
+        }
+        let word = self.word(tick);
+        let inflow = self.core.inflow_beside(tick, &self.buffer, word.as_ref());
+        let turn = self.core.take_turn();
+        if let Some(stylus) = &self.stylus {
+            stylus.turn(turn);
+        }
         self.view.write(self.core.view());
         inflow
     }

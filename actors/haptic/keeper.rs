@@ -3,6 +3,7 @@
 
 use super::HAPTIC;
 use super::control::{Haptic, Look};
+use super::rights::Refusal;
 use super::seat::Seat;
 use hapticbillard::events::Health;
 use kameo::mailbox;
@@ -33,7 +34,8 @@ pub struct Keeper {
 pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
     for refusal in seat.obtained().refusals() {
         log::warn!("{HAPTIC}: {refusal}");
-        tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason: refusal.to_string() });
+        let Refusal { asked, reason, remedy } = refusal.clone();
+        tell(&news, Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });
     }
     let (shown, control) = watch::channel(None);
     let (end, ended) = watch::channel(false);

@@ -58,7 +58,7 @@ enum Stage {
 }
 
 /// The hand of one or two people who share mouse and keyboard.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Human {
     players: Vec<PlayerId>,
     table: Arc<Table>,
@@ -420,6 +420,7 @@ impl Human {
             // Shown at once, even if time stands still from here on: no solid cue is left behind.
             self.is_aim_new = true;
         }
+        self.disarm_stylus();
     }
 
     /// Moves the tip by one tick of a stroke.

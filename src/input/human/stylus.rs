@@ -116,6 +116,17 @@ impl Human {
         }
     }
 
+    /// Whatever comes now, what the stylus leads touches nothing.
+    pub(super) fn disarm_stylus(&mut self) {
+        if self.stylus_leads()
+            && let Some(path) = self.path.as_mut().filter(|path| path.solid)
+        {
+            path.solid = false;
+            let path = Arc::new(path.clone());
+            self.command(Command::MoveCue(path));
+        }
+    }
+
     /// The stylus has struck the cue ball.
     pub(super) fn stylus_struck(&mut self, fact: &Fact) {
         self.strength_m_s = self.path_speed(fact);

@@ -177,3 +177,12 @@ fn the_mouse_turns_the_workspace_unless_a_stroke_is_armed() {
     // What the cue points along is the stylus' own affair.
     assert_eq!(desk.view().aim, before);
 }
+
+#[test]
+fn a_pause_in_an_armed_stroke_leaves_no_cue_behind_that_strikes() {
+    let mut desk = desk();
+    rest(&mut desk, 5, true);
+    assert!(!is_cue_harmless(&desk));
+    desk.tick(&[RawInput::Key { key: Key::Letter('p'), down: true }]);
+    assert!(desk.last().paused && is_cue_harmless(&desk));
+}
