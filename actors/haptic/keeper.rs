@@ -30,8 +30,12 @@ pub struct Keeper {
     task: JoinHandle<()>,
 }
 
+/// Who is told of each control that takes its place.
+pub type Joins = Box<dyn Fn(&ActorRef<Haptic>) + Send + Sync>;
+
 /// Keeps a control at this servo, and tells `news` what the player should know.
-pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
+/// `joins` is told of each.
+pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
     for refusal in seat.obtained().refusals() {
         log::warn!("{HAPTIC}: {refusal}");
         let Refusal { asked, reason, remedy } = refusal.clone();
@@ -39,7 +43,7 @@ pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
     }
     let (shown, control) = watch::channel(None);
     let (end, ended) = watch::channel(false);
-    let task = tokio::spawn(run(seat.clone(), news, shown, ended));
+    let task = tokio::spawn(run(seat.clone(), news, joins, shown, ended));
     Keeper { seat, control, end, task }
 }
 
@@ -65,6 +69,7 @@ impl Keeper {
 async fn run(
     seat: Arc<Seat>,
     news: flume::Sender<Health>,
+    joins: Joins,
     shown: watch::Sender<Option<ActorRef<Haptic>>>,
     mut ended: watch::Receiver<bool>,
 ) {
@@ -75,6 +80,7 @@ async fn run(
         if let Some(control) = Haptic::new(&seat) {
             let control = Haptic::spawn_with_mailbox(control, mailbox::bounded(MAILBOX));
             shown.send_replace(Some(control.clone()));
+            joins(&control);
             if was_gone {
                 tell(&news, Health::ActorRestarted { actor: HAPTIC.into() });
             }

@@ -155,8 +155,7 @@ mod tests {
     fn hear(wanted: u8, refuses: bool) -> (Result<u32, NoGrant>, Vec<(u64, u32)>) {
         let asked = Arc::new(Mutex::new(Vec::new()));
         let service = Fake { refuses, asked: asked.clone() };
-        let runtime =
-            tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         let heard = runtime.block_on(async {
             let (ours, theirs) = tokio::net::UnixStream::pair().unwrap();
             let guid = zbus::Guid::generate();

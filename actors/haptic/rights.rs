@@ -248,12 +248,11 @@ mod system {
         let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
         let value = ThreadPriorityValue::try_from(priority).map_err(|why| why.to_string())?;
         let value = ThreadPriority::Crossplatform(value);
-        set_thread_priority_and_policy(thread_native_id(), value, fifo).map_err(
-            |error| match error {
-                Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
-                other => format!("{other:?}"),
-            },
-        )
+        set_thread_priority_and_policy(thread_native_id(), value, fifo).map_err(|error| match error
+        {
+            Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
+            other => format!("{other:?}"),
+        })
     }
 
     /// What this thread has now, given by `who`.

@@ -7,10 +7,10 @@
 //! when nothing was heard of it for half a second.
 
 use super::ports::StylusPorts;
+use glam::DVec2;
 use hapticbillard::cue::CuePath;
 use hapticbillard::event_manager::Publication;
 use hapticbillard::events::{Command, Event};
-use glam::DVec2;
 use hapticbillard::haptic::{DeviceStatus, StylusSample};
 use hapticbillard::input::StylusWord;
 use hapticbillard::tick::{Frame, FrameSource, Inflow};

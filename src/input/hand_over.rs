@@ -112,13 +112,19 @@ mod tests {
     fn it_leads_from_one_address_to_its_loss_and_again_from_the_next_address() {
         for armed in [false, true] {
             let mut over = HandOver::new();
-            assert_eq!((over.hear(&held(armed)), over.leads(), over.is_armed()), (None, false, false));
+            assert_eq!(
+                (over.hear(&held(armed)), over.leads(), over.is_armed()),
+                (None, false, false)
+            );
             over.address();
             assert!(over.leads() && over.is_armed() == armed);
             assert_eq!(over.hear(&StylusWord::Lost), Some(Change::Drops { armed }));
             assert_eq!((over.hear(&StylusWord::Lost), over.leads()), (None, false));
             // Back, but the mouse has the cue.
-            assert_eq!((over.hear(&held(true)), over.leads(), over.is_armed()), (None, false, false));
+            assert_eq!(
+                (over.hear(&held(true)), over.leads(), over.is_armed()),
+                (None, false, false)
+            );
             over.address();
             assert!(over.leads());
         }

@@ -15,10 +15,12 @@
 //!
 //! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
 
+mod eye;
+
 mod stylus;
 pub use stylus::STYLUS;
 
-use super::camera::{Camera, Viewpoint};
+use super::camera::Camera;
 use super::feel::{
     AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
     LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT, OFFSET_PER_S, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
@@ -27,7 +29,7 @@ use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
 use super::placing::Placing;
 use super::tip::{Tip, address_path, stroke_path};
-use super::{Button, HumanMode, HumanView, Key, RawInput, sight};
+use super::{Button, Key, RawInput, sight};
 use crate::ball::POOL_RADIUS_M;
 use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{
@@ -187,45 +189,6 @@ impl Human {
     fn is_hurried(&self) -> bool {
         let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
         waits && !self.paused && self.held.has(Key::Letter('f'))
-    }
-
-    /// What the picture shows of the player now.
-    pub fn view(&self) -> HumanView {
-        let mut view = HumanView {
-            camera: self.camera.pose(),
-            aim: self.aim,
-            strength_m_s: self.strength_m_s,
-            help: self.help,
-            ..HumanView::default()
-        };
-        match &self.stage {
-            Stage::Waiting | Stage::Struck => {}
-            Stage::Placing(placing) => {
-                view.mode = HumanMode::Placing;
-                view.placing = Some(placing.at);
-                view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
-            }
-            Stage::Aiming if self.stylus_leads() => {
-                view.mode = HumanMode::HoldingStylus;
-                view.strength_m_s = if self.is_stylus_armed() { self.tip_speed_m_s() } else { 0.0 };
-            }
-            Stage::Aiming => {
-                view.mode = HumanMode::Aiming;
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
-            }
-            Stage::Stroking(tip) => {
-                view.mode = HumanMode::Stroking;
-                view.pulled_back_m = tip.pulled_back_m();
-                view.strength_m_s = tip.speed_m_s().abs();
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
-            }
-        }
-        if self.paused {
-            view.mode = HumanMode::Paused;
-        }
-        view
     }
 
     /// Takes one report; adds to `up` what moves the tip. True if the game shall end.
@@ -450,18 +413,6 @@ impl Human {
 
     fn contact(&self) -> DVec3 {
         self.aim.tip_of_radius_at_contact(self.tip_radius_m, self.centre, self.radius_m)
-    }
-
-    fn follow_with_camera(&mut self) {
-        let behind_cue = Viewpoint::Cue { ball: self.centre, aim: self.aim };
-        let viewpoint = match self.stage {
-            Stage::Placing(_) => Viewpoint::Bird,
-            _ if self.is_bird => Viewpoint::Bird,
-            Stage::Waiting => Viewpoint::Overview,
-            Stage::Aiming | Stage::Stroking(_) => behind_cue,
-            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
-        };
-        self.camera.go_to(viewpoint);
     }
 
     fn say(&mut self, event: Event) {

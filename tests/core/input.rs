@@ -6,7 +6,7 @@ mod aim;
 pub mod desk;
 /// Whole turns and games of a person.
 mod play;
-/// A stylus beside the mouse: who strikes, and what becomes of a stroke whose device is lost.
-mod stylus;
 /// Strokes: what the hand does is what the tip does.
 mod stroke;
+/// A stylus beside the mouse: who strikes, and what becomes of a stroke whose device is lost.
+mod stylus;

@@ -7,14 +7,20 @@
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// Forces that end when something fails while a wall is felt.
+mod contact;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
+/// The table of failures, cell by cell.
+mod failures;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// From the stylus to the mouse and back.
+mod hand_over;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.

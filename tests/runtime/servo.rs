@@ -34,7 +34,7 @@ use std::time::{Duration, Instant};
 
 /// What a test knows of a device, and what it makes it do.
 #[derive(Default)]
-struct Wires {
+pub struct Wires {
     /// Size of the last force that was written [N], as bits.
     force: AtomicU64,
     held: AtomicU8,
@@ -292,7 +292,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
     let runtime = tokio();
     let keeper = {
         let _inside = runtime.enter();
-        keep(seat.clone(), tell)
+        keep(seat.clone(), tell, Box::new(|_| ()))
     };
     wait_for_push(&wires);
     let first = keeper.control().unwrap();

@@ -119,9 +119,7 @@ fn shown(
                 let hand = hand.with_ball_radius(radii.of(BallId::CUE));
                 let hand = WindowHand::new(hand, raw, view);
                 let hand = match stylus.filter(|_| has_cue) {
-                    Some(ports) => {
-                        hand.with_stylus(Stylus::new(ports), mouse.map(FeltMouse::new))
-                    }
+                    Some(ports) => hand.with_stylus(Stylus::new(ports), mouse.map(FeltMouse::new)),
                     None => hand,
                 };
                 InputPort::Hand(Box::new(hand))

@@ -89,7 +89,9 @@ impl Human {
             self.take_over(tick, armed);
         }
         let StylusWord::Held { direction, path: Some(path), .. } = word else { return };
-        if self.stylus_leads() && !self.paused && matches!(self.stage, Stage::Aiming | Stage::Struck)
+        if self.stylus_leads()
+            && !self.paused
+            && matches!(self.stage, Stage::Aiming | Stage::Struck)
         {
             self.aim = aim_along(*direction);
             self.path = Some((**path).clone());
