@@ -17,12 +17,15 @@ use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// The device goes down until it is pushed back with this [N], and rests there.
-const LEAN_N: f64 = 0.4;
+/// The device goes down until it is pushed back with this [N], and rests there: less than what
+/// the ramp after an interruption waits for.
+const LEAN_N: f64 = 0.15;
 /// How fast it goes down [m/s].
 const DOWN_M_S: f64 = 0.02;
-/// The start ramp and the ramp after an interruption, about [s]: half the latter at least passes.
-const RAMP_S: f64 = 0.25;
+/// It waits until the start ramp is over [s].
+const START_S: f64 = 3.0;
+/// The ramp after an interruption takes half a second; most of that passes [s].
+const RAMP_S: f64 = 0.4;
 
 /// What test and device know of each other.
 #[derive(Default)]
@@ -36,6 +39,8 @@ struct Wires {
     leans: AtomicBool,
     /// Force of the last tick [N], as bits.
     force: AtomicU64,
+    /// What it is pushed with while nothing fails [N], as bits.
+    full: AtomicU64,
     /// Ticks in which it was pushed although it had said that it is lost, or no numbers.
     pushed_broken: AtomicU64,
     /// The most ticks in a row in which it was pushed although nobody held the dead man's switch.
@@ -49,6 +54,10 @@ impl Wires {
         f64::from_bits(self.force.load(Ordering::SeqCst))
     }
 
+    fn full_n(&self) -> f64 {
+        f64::from_bits(self.full.load(Ordering::SeqCst))
+    }
+
     fn rise_s(&self) -> f64 {
         f64::from_bits(self.rise.load(Ordering::SeqCst))
     }
@@ -60,6 +69,8 @@ struct Leaning {
     position: DVec3,
     is_broken: bool,
     alone: u64,
+    /// Time since the start [s].
+    time_s: f64,
     /// Time since there was no force [s].
     since_s: f64,
     has_risen: bool,
@@ -77,8 +88,9 @@ impl Device for Leaning {
             (wires.says_nan.load(Ordering::SeqCst), wires.is_lost.load(Ordering::SeqCst));
         self.is_broken = is_nan || is_lost;
         self.since_s += dt;
+        self.time_s += dt;
         let leans = wires.leans.load(Ordering::SeqCst);
-        if !leans {
+        if !leans && self.time_s > START_S {
             self.position.y -= DOWN_M_S * dt.min(0.002);
         }
         DeviceState {
@@ -103,7 +115,8 @@ impl Device for Leaning {
         wires.pushed_alone.fetch_max(self.alone, Ordering::SeqCst);
         if force_n == 0.0 {
             (self.since_s, self.has_risen) = (0.0, false);
-        } else if force_n > 0.8 * LEAN_N && !self.has_risen {
+            wires.rise.store(0.0_f64.to_bits(), Ordering::SeqCst);
+        } else if force_n > 0.9 * wires.full_n() && !self.has_risen {
             self.has_risen = true;
             wires.rise.store(self.since_s.to_bits(), Ordering::SeqCst);
         }
@@ -147,6 +160,7 @@ impl Game {
             position: DVec3::new(0.0, 0.055, 0.0),
             is_broken: false,
             alone: 0,
+            time_s: 0.0,
             since_s: 0.0,
             has_risen: false,
         };
@@ -182,14 +196,24 @@ impl Game {
     fn wait_for(&self, what: &str, is_so: impl Fn(&Wires) -> bool) {
         let start = Instant::now();
         while !is_so(&self.wires) {
-            assert!(start.elapsed() < Duration::from_secs(60), "in vain: {what}");
+            let (force, full) = (self.wires.force_n(), self.wires.full_n());
+            let is_late = start.elapsed() > Duration::from_secs(60);
+            assert!(!is_late, "in vain: {what}; {force} N of {full} N");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
 
+    /// Waits until the ball pushes as it will.
     #[track_caller]
     fn wait_for_lean(&self) {
-        self.wait_for("the ball's force", |wires| wires.force_n() > 0.9 * LEAN_N);
+        self.wait_for("a ball", |wires| wires.leans.load(Ordering::SeqCst));
+        self.wait_for("a steady force", |wires| {
+            let before = wires.force_n();
+            std::thread::sleep(Duration::from_millis(300));
+            let now = wires.force_n();
+            wires.full.store(now.to_bits(), Ordering::SeqCst);
+            before > 0.9 * LEAN_N && (now - before).abs() < 1e-3 * now
+        });
     }
 
     #[track_caller]
@@ -215,8 +239,8 @@ impl Game {
     /// The force came back slowly.
     #[track_caller]
     fn comes_back_softly(&self) {
-        self.wait_for_lean();
         self.wait_for("the rise", |wires| wires.rise_s() > 0.0);
+        self.wait_for_lean();
         assert!(self.wires.rise_s() > RAMP_S, "{} s", self.wires.rise_s());
     }
 
