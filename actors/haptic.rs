@@ -10,6 +10,7 @@ mod clock;
 mod control;
 mod device;
 mod keeper;
+pub mod openhaptics;
 mod ports;
 mod rights;
 mod seat;
