@@ -125,7 +125,12 @@ impl Seat {
 
     /// What the operating system and the device refused.
     pub fn refusals(&self) -> impl Iterator<Item = &Refusal> {
-        self.obtained().refusals().chain(self.turns.refusal())
+        self.obtained().refusals().chain(self.device_refusal())
+    }
+
+    /// What the device refused.
+    pub fn device_refusal(&self) -> Option<&Refusal> {
+        self.turns.refusal()
     }
 
     /// Whether it turns.
