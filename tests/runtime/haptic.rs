@@ -68,8 +68,8 @@ fn devices_are_listed_and_what_is_not_built_in_says_so() {
     let is = |name: &str| lines.iter().find(|line| line["name"] == name).unwrap();
     assert_eq!(is("simulated")["built_in"], true);
     assert_eq!(is("mouse")["spec"]["force_max_n"], 3.3);
-    assert_eq!(is("openhaptics")["built_in"], false);
-    assert_eq!(lines.last().unwrap()["summary"]["built_in"], 2);
+    assert_eq!(is("openhaptics")["built_in"], true);
+    assert_eq!(lines.last().unwrap()["summary"]["built_in"], 3);
     let plain = program(&["haptic", "devices"]);
     assert!(
         text(&plain.stdout)
