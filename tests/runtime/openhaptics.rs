@@ -202,6 +202,9 @@ fn a_library_or_function_or_device_that_is_missing_is_named() {
     for part in ["/nowhere/libHD.so (", "HAPTICBILLARD_LIBHD", "install OpenHaptics"] {
         assert!(said.contains(part), "{said}");
     }
+    if cfg!(target_os = "linux") {
+        assert!(said.contains("No such file or directory"), "{said}");
+    }
     let error = open(Some(lacking_one()), None).err().unwrap();
     assert!(
         matches!(&error, NoOpenHaptics::NoFunction { function: "hdUnschedule", .. }),
@@ -525,6 +528,13 @@ fn check_runs_at_the_vendors_scheduler_and_tells_what_is_wrong() {
     let summary = &lines(&output.stdout)[0]["summary"];
     let trouble = summary["device"]["troubles"][0].as_str().unwrap();
     assert!(trouble.contains("HD_COMM_ERROR (0x302)"), "{summary}");
+
+    // `auto` takes a device that is there, and plays on where it does not open.
+    for (script, model) in [("", "Stub Omni"), ("no_init", "PHANTOM Omni")] {
+        let auto = ["haptic", "check", "--device", "auto", "--seconds", "0.2", "--json"];
+        let output = program(&auto, whole(), script, &log);
+        assert_eq!(lines(&output.stdout)[0]["summary"]["device"]["model"], model, "{output:?}");
+    }
 
     let named = ["haptic", "check", "--device", "openhaptics:Left", "--seconds", "0.2"];
     let output = program(&named, whole(), "only=Left,nan=20@50", &log);
