@@ -10,6 +10,7 @@ mod clock;
 mod control;
 mod device;
 mod keeper;
+pub mod openhaptics;
 mod ports;
 #[cfg(all(target_os = "linux", feature = "rtkit"))]
 mod realtime_kit;

@@ -7,7 +7,7 @@ use glam::DVec2;
 use hapticbillard::ball::BallPlace;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::Health;
-use hapticbillard::haptic::{SafetyFlags, ServoReport, stiffness_for};
+use hapticbillard::haptic::{DeviceStatus, SafetyFlags, ServoReport, stiffness_for};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::ELEVATION_MAX_RAD;
 use kameo::prelude::*;
@@ -60,7 +60,12 @@ impl Message<Look> for Haptic {
         let report = self.held.report();
         self.adapt();
         self.follow(&report);
-        let news = self.news(report.flags);
+        // Where nobody holds the dead man's switch the device may be well all the same.
+        let flags = match report.sample.device.status {
+            DeviceStatus::Ready => report.flags.without(SafetyFlags::DISCONNECTED),
+            DeviceStatus::Warm | DeviceStatus::Lost => report.flags,
+        };
+        let news = self.news(flags);
         Looked { report, stiffness_max_n_m: self.held.orders().stiffness_max_n_m, news }
     }
 }
@@ -125,7 +130,8 @@ impl Haptic {
             failed(&reason);
         }
         if was_running && !self.was_running {
-            failed("the servo ended; the device is without force");
+            let why = self.held.seat().why();
+            failed(&why.unwrap_or("the servo ended; the device is without force".to_string()));
         }
         let is_fine = |flags: SafetyFlags| wrong.iter().all(|(flag, _)| !flags.has(*flag));
         if is_fine(flags) && !is_fine(told) && self.was_running {

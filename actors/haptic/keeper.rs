@@ -36,7 +36,7 @@ pub type Joins = Box<dyn Fn(&ActorRef<Haptic>) + Send + Sync>;
 /// Keeps a control at this servo, and tells `news` what the player should know.
 /// `joins` is told of each.
 pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
-    for refusal in seat.obtained().refusals() {
+    for refusal in seat.refusals() {
         log::warn!("{HAPTIC}: {refusal}");
         let Refusal { asked, reason, remedy } = refusal.clone();
         tell(&news, Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });

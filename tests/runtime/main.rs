@@ -29,11 +29,16 @@ mod hearing;
 mod json;
 /// Who stands in for whom.
 mod mocks;
+/// Devices of the vendor's HD library, in front of a stub of it.
+mod openhaptics;
 /// What enters from outside: pauses, wrong files.
 mod outside;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;
+/// Real-time rights for ordinary users.
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 /// Recordings of games that were interrupted or killed.
 #[cfg(unix)]
 mod recordings;
@@ -45,6 +50,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// The stub of the vendor's HD library.
+mod stub_hd;
 /// Who dies and what then.
 mod supervision;
 /// The progress bar.
