@@ -24,7 +24,7 @@ mod turns;
 pub use body::Body;
 pub use control::{Haptic, Look, Looked};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
-pub use keeper::{Joins, Keeper, keep};
+pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };

@@ -205,7 +205,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         sinks.push(seat.sink());
         let crew = crew.clone();
         let joins: haptic::Joins = Box::new(move |control| crew.tell(haptic::HAPTIC, control));
-        (haptic::keep(seat, tell, joins), world)
+        (haptic::keep_and_tell(seat, tell, joins), world)
     });
     let (keeper, felt_world) = felt.unzip();
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());

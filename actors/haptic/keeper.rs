@@ -34,8 +34,12 @@ pub struct Keeper {
 pub type Joins = Box<dyn Fn(&ActorRef<Haptic>) + Send + Sync>;
 
 /// Keeps a control at this servo, and tells `news` what the player should know.
-/// `joins` is told of each.
-pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
+pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
+    keep_and_tell(seat, news, Box::new(|_| ()))
+}
+
+/// The same, and `joins` is told of each control.
+pub fn keep_and_tell(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
     for refusal in seat.refusals() {
         log::warn!("{HAPTIC}: {refusal}");
         let Refusal { asked, reason, remedy } = refusal.clone();

@@ -292,7 +292,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
     let runtime = tokio();
     let keeper = {
         let _inside = runtime.enter();
-        keep(seat.clone(), tell, Box::new(|_| ()))
+        keep(seat.clone(), tell)
     };
     wait_for_push(&wires);
     let first = keeper.control().unwrap();
