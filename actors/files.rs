@@ -196,7 +196,7 @@ pub fn peak_memory_kib(status: &str) -> Option<u64> {
 
 /// The names of what is in a folder; none if it cannot be read.
 pub fn names_in(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
 }
 

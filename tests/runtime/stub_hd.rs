@@ -1,6 +1,6 @@
-//! The stub of the vendor's HD library (`tests/stub_hd`): built once, and loaded anew by every test,
-//! since a library is loaded only once into a process. Its script is set, and its log read, through
-//! functions of its own.
+//! The stub of the vendor's HD library (`tests/stub_hd`): built once, and loaded anew by every
+//! test, since a library is loaded only once into a process. Its script is set, and its log read,
+//! through functions of its own.
 
 #![allow(unsafe_code)]
 
