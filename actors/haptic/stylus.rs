@@ -26,6 +26,9 @@ const WAITING_MAX: usize = WAITING + 20;
 const PIECE_S: Seconds = 5.0 * TICK_S;
 /// A servo that says nothing for so long says nothing any more.
 const SILENCE: Duration = Duration::from_millis(500);
+/// Of the time between two questions so much counts: when everything stands still the servo is
+/// not to blame.
+const SILENCE_STEP: Duration = Duration::from_millis(20);
 
 /// The samples of a stylus on their way to physics.
 pub struct Stylus {
@@ -34,8 +37,9 @@ pub struct Stylus {
     is_flowing: bool,
     is_disarmed: bool,
     left_out: u64,
-    /// When a sample was taken last.
-    heard: Instant,
+    /// When it was asked last, and how long it has said nothing.
+    asked: Instant,
+    silent: Duration,
 }
 
 impl Stylus {
@@ -47,7 +51,8 @@ impl Stylus {
             is_flowing: false,
             is_disarmed: false,
             left_out: 0,
-            heard: Instant::now(),
+            asked: Instant::now(),
+            silent: Duration::ZERO,
         }
     }
 
@@ -75,8 +80,9 @@ impl Stylus {
 
     /// What the stylus says in `tick`, if it says something.
     pub fn word(&mut self, tick: Tick) -> Option<StylusWord> {
-        let Some(sample) = self.next() else { return self.is_gone().then_some(StylusWord::Lost) };
-        self.heard = Instant::now();
+        let sample = self.next();
+        let is_gone = self.is_gone(sample.is_some());
+        let Some(sample) = sample else { return is_gone.then_some(StylusWord::Lost) };
         self.ports.signs.see(sample.tick);
         if sample.device.status == DeviceStatus::Lost {
             (self.last, self.is_disarmed) = (None, true);
@@ -104,8 +110,8 @@ impl Stylus {
         while let Ok(sample) = self.ports.samples.pop() {
             newest = Some(sample);
         }
-        let Some(sample) = newest else { return self.is_gone().then_some(StylusWord::Lost) };
-        self.heard = Instant::now();
+        let is_gone = self.is_gone(newest.is_some());
+        let Some(sample) = newest else { return is_gone.then_some(StylusWord::Lost) };
         Some(match sample.device.status {
             DeviceStatus::Lost => StylusWord::Lost,
             DeviceStatus::Ready | DeviceStatus::Warm => {
@@ -114,10 +120,13 @@ impl Stylus {
         })
     }
 
-    /// Whether nobody will say anything any more.
-    fn is_gone(&self) -> bool {
+    /// Whether nobody will say anything any more, asked once per tick.
+    fn is_gone(&mut self, has_spoken: bool) -> bool {
+        let since = std::mem::replace(&mut self.asked, Instant::now()).elapsed();
+        let silent = self.silent + since.min(SILENCE_STEP);
+        self.silent = if has_spoken { Duration::ZERO } else { silent };
         let has_ended = self.ports.samples.is_abandoned() && self.ports.samples.is_empty();
-        has_ended || self.heard.elapsed() > SILENCE
+        has_ended || self.silent > SILENCE
     }
 
     /// The sample of this tick, if the samples flow.
@@ -225,5 +234,38 @@ mod tests {
         while begin(&mut stylus, 21).is_some() {}
         push(10, true);
         assert_eq!(begin(&mut stylus, 22).map(|(_, solid)| solid), Some(false));
+    }
+
+    #[test]
+    fn a_device_that_is_lost_and_a_servo_that_has_ended_are_told_in_play_and_in_rest() {
+        let orders =
+            Orders { effects: EffectSet::default(), reach: None, stiffness_max_n_m: 100.0 };
+        let AllPorts { mut servo, stylus, .. } = AllPorts::new(orders, Vec::new());
+        let mut stylus = Stylus::new(stylus);
+        let mut push = |status| {
+            let mut sample = StylusSample { direction: DVec3::X, ..StylusSample::default() };
+            (sample.dt, sample.stabilised, sample.device.status) = (0.001, true, status);
+            for _ in 0..WAITING {
+                servo.samples.push(sample).unwrap();
+            }
+        };
+        let armed = |word: Option<StylusWord>| match word {
+            Some(StylusWord::Held { armed, .. }) => Some(armed),
+            Some(StylusWord::Lost) | None => None,
+        };
+        push(DeviceStatus::Ready);
+        for tick in 1..=WAITING as u64 {
+            assert_eq!(armed(stylus.word(Tick(tick))), Some(true));
+        }
+        push(DeviceStatus::Lost);
+        assert_eq!(stylus.word(Tick(9)), Some(StylusWord::Lost));
+        assert_eq!(stylus.rest(), Some(StylusWord::Lost));
+        // Back: what began before the pause or the loss is no stroke any more.
+        push(DeviceStatus::Warm);
+        assert_eq!(armed(stylus.word(Tick(10))), Some(false));
+        assert_eq!(armed(stylus.rest()), Some(false));
+        drop(servo);
+        assert_eq!(stylus.word(Tick(11)), Some(StylusWord::Lost));
+        assert_eq!(stylus.rest(), Some(StylusWord::Lost));
     }
 }

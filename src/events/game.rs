@@ -385,7 +385,8 @@ pub enum Health {
         /// Its name.
         actor: String,
     },
-    /// Something that was asked of the operating system was not given; the game does without it.
+    /// Something that was asked of the operating system or a device was not given; the game does
+    /// without it.
     Refused {
         /// Which actor asked.
         actor: String,

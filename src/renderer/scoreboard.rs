@@ -32,11 +32,11 @@ pub struct Scoreboard {
     pub unfelt: Option<String>,
     /// The haptic device is gone, and the mouse strikes.
     pub is_without_stylus: bool,
-    /// What the operating system has refused, until the first stroke.
+    /// What operating system and device have refused, until the first stroke.
     pub refused: Vec<Refused>,
 }
 
-/// Something that was asked of the operating system and not given.
+/// Something that was asked of the operating system or a device and not given.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused {
     /// What.

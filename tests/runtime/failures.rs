@@ -13,6 +13,7 @@
 //! | device lost while a stroke is armed | pause, then the mouse | `hand_over::…`, `core::input::stylus` |
 //! | device lost otherwise | the mouse at once | `core::input::stylus` |
 //! | device lost, or says NaN | no force at the next tick | `contact::a_device_that_is_lost_or_says_nan…` |
+//! | rights, of any kind | the player is told with what would help | `what_is_refused_stands_in…` |
 //! | the world stalls | the force fades to none | `contact::a_world_that_stalls…` |
 //!
 //! There is no sound yet that could fail.
@@ -22,12 +23,19 @@ use super::hearing::Hears;
 use super::supervision::{draft, recorded, run, undisturbed, verify};
 use hapticbillard::events::{Event, Health, Source, Topic, Topics};
 use hapticbillard::hash::StateHash;
+use hapticbillard::input::HumanView;
 use hapticbillard::physics::Snapshot;
-use hapticbillard::tick::{Delivered, Frame, FrameSource, Inflow, Outcome, Participant};
+use hapticbillard::renderer::{Hud, Scoreboard, Words};
+use hapticbillard::rules::{Language, Texts};
+use hapticbillard::tick::{Delivered, Frame, FrameSource, Inflow, Outcome, Pace, Participant};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::event_manager::Sink;
+use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::Stage;
+use hapticbillard_actors::haptic::{Asked, Core, Plan, Seat, Started};
+use hapticbillard_actors::pacer::Tempo;
 use hapticbillard_actors::recorder::Recorder;
-use hapticbillard_actors::runtime::{Crew, InputPort, Member, Setup};
+use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -193,4 +201,31 @@ fn whoever_only_listens_can_go_and_the_game_is_the_same() {
     let finished = run(Setup { sinks, ..recorded(&file, Box::new(Recorder::start)) }).unwrap();
     assert_eq!((finished.end, finished.hash), (reference.end, reference.hash));
     assert!(dropped.load(Ordering::SeqCst) > 10);
+}
+
+#[test]
+fn what_is_refused_stands_in_the_players_window_with_what_would_help() {
+    let stage = Stage::new(&load_scene("haptic_touch").unwrap(), "haptic_touch").unwrap();
+    let asked = Asked { core: Core::Number(1023), priority: None, ..Asked::default() };
+    let plan = Plan { asked, ..stage.haptic().unwrap().unwrap() };
+    let Started { seat, world, .. } = Seat::start(plan).unwrap();
+    let (mail, heard) = flume::unbounded::<Delivered>();
+    let setup = Setup {
+        pace: Pace::EveryTick,
+        tempo: Tempo::RealTime(1.0),
+        sinks: vec![Sink { topics: Scoreboard::topics(), mail, dropped: Arc::default() }],
+        haptic: Some(Felt { seat, world }),
+        ..Setup::headless(Tick(300))
+    };
+    runtime::run(stage.cast().unwrap(), setup).unwrap();
+    let mut board = Scoreboard::default();
+    for delivered in heard.iter() {
+        delivered.events.iter().for_each(|stamped| board.hear(&stamped.event));
+    }
+    for language in [Language::English, Language::German] {
+        let (texts, words) = (Texts::new(language), Words::new(language));
+        let hud = Hud::new(&board, &HumanView::default(), &texts, &words);
+        let line = hud.message.iter().find(|line| line.contains("core 1023")).unwrap();
+        assert!(line.contains("name one in [haptic]"), "{line}");
+    }
 }
