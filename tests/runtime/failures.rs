@@ -66,7 +66,7 @@ impl Participant for Killer {
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
         for _ in delivered.events.iter() {
             self.heard += 1;
-            if self.heard % self.every == 0 {
+            if self.heard.is_multiple_of(self.every) {
                 self.known.extend(self.joined.try_iter());
                 let victims = self.known.drain(..).filter(|member| member.name == self.victim);
                 for victim in victims {
