@@ -3,7 +3,7 @@
 use crate::cli::folder;
 use crate::counting::calls;
 use crate::hearing::Hears;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use hapticbillard::cue::Aim;
 use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics};
 use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
@@ -499,4 +499,31 @@ fn a_hand_breaks_and_the_referee_judges_it() {
         _ => None,
     });
     assert_eq!(verdicts.len(), 1, "{verdicts:?}");
+}
+
+#[test]
+fn a_mouse_turns_and_raises_the_workspace() {
+    let file = folder("turned_workspace").join("two_hands.toml");
+    fs::write(&file, TWO_HANDS).unwrap();
+    let stage = Stage::new(&load_scene(file.to_str().unwrap()).unwrap(), "two_hands").unwrap();
+    let (wired, _) = wired();
+    let Plan { opened, asked, .. } = wired;
+    let plan = Plan { opened, asked, ..stage.haptic().unwrap().unwrap() };
+    let Started { seat, .. } = Seat::start(plan).unwrap();
+    let runtime = tokio();
+    let control = {
+        let _inside = runtime.enter();
+        Haptic::spawn(Haptic::new(&seat).unwrap())
+    };
+    let look = || runtime.block_on(control.ask(Look).send()).unwrap().report;
+    wait_for("a workspace", || look().elevation_rad > 0.0);
+    let before = look();
+    seat.signs().turn(DVec2::new(0.3, 0.1));
+    seat.signs().turn(DVec2::new(-0.1, 0.1));
+    let is_near = |angle: f64, expected: f64| (angle - expected).abs() < 1e-9;
+    wait_for("the turn", || {
+        let now = look();
+        is_near(now.azimuth_rad, before.azimuth_rad + 0.2)
+            && is_near(now.elevation_rad, before.elevation_rad + 0.2)
+    });
 }
