@@ -50,7 +50,7 @@ setup:
 # Modules that a macro declares are not found by cargo fmt.
 early:
 	$(CARGO) fmt --all --check
-	rustfmt --edition 2024 --check src/rules/games/*.rs
+	rustfmt --edition 2024 --check src/rules/games/*.rs tests/stub_hd/hd.rs
 	$(CARGO) test --quiet --locked --package hapticbillard
 
 featureless:

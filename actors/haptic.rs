@@ -10,17 +10,21 @@ mod clock;
 mod control;
 mod device;
 mod keeper;
+pub mod openhaptics;
 mod ports;
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 mod rights;
 mod seat;
 mod stylus;
 mod thread;
 mod timing;
+mod turns;
 
 pub use body::Body;
 pub use control::{Haptic, Look, Looked};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
-pub use keeper::{Keeper, keep};
+pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };
@@ -29,6 +33,7 @@ pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
+pub use turns::{Call, Called, Explain, Scheduler, Turns};
 
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};

@@ -25,5 +25,8 @@ pub use calling::CallView;
 
 mod tip;
 
+mod hand_over;
+pub use hand_over::StylusWord;
+
 mod human;
-pub use human::Human;
+pub use human::{Human, STYLUS};

@@ -1,5 +1,7 @@
 //! Which devices there are, and how they are opened.
 
+use super::openhaptics::{self, NoOpenHaptics};
+use super::turns::{Explain, Scheduler};
 use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
@@ -8,46 +10,67 @@ use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force};
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
+use std::sync::Arc;
 
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
 
 /// A kind of device as `haptic devices` lists it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Listed {
     /// Its name in a scene.
     pub name: &'static str,
-    /// What it is, in units; none: it is not built in.
-    pub spec: Option<DeviceSpec>,
     /// In words.
     pub about: &'static str,
+    /// Whether this build knows it.
+    pub is_built_in: bool,
+    /// What it is, in units; none: there is none.
+    pub spec: Option<DeviceSpec>,
+    /// What it says of itself, or why it is not there.
+    pub says: Option<String>,
 }
 
-/// All kinds that a scene can name.
+/// All kinds that a scene can name. Those that can be there or not are asked.
 pub fn list() -> [Listed; 5] {
-    let spec = Some(DeviceSpec::OMNI);
+    let simulated = |name, about| {
+        let spec = Some(DeviceSpec::OMNI);
+        Listed { name, about, is_built_in: true, spec, says: None }
+    };
+    let missing = |name, about| Listed { name, about, is_built_in: false, spec: None, says: None };
+    let (spec, says) = match openhaptics::look(openhaptics::named().as_deref(), None) {
+        Ok(seen) => (Some(seen.spec), seen.about),
+        Err(error) => (None, error.to_string()),
+    };
     [
-        Listed { name: "simulated", spec, about: "a simulated device in a simulated hand" },
-        Listed { name: "mouse", spec, about: "a simulated device; a mouse moves the hand" },
-        Listed { name: "recorded:FILE", spec: None, about: "a recording of a device" },
+        simulated("simulated", "a simulated device in a simulated hand"),
+        simulated("mouse", "a simulated device; a mouse moves the hand"),
+        missing("recorded:FILE", "a recording of a device"),
         Listed {
             name: "openhaptics",
-            spec: None,
             about: "SensAble and 3D Systems, by OpenHaptics",
+            is_built_in: true,
+            spec,
+            says: Some(says),
         },
-        Listed { name: "haply", spec: None, about: "Haply Inverse3, at its service" },
+        missing("haply", "Haply Inverse3, at its service"),
     ]
 }
 
 /// Why there is no device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
-     [haptic], or \"none\""
-)]
-pub struct NoDevice {
-    /// What was asked for.
-    pub name: String,
+pub enum NoDevice {
+    /// It is not built in.
+    #[error(
+        "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
+         [haptic], or \"none\""
+    )]
+    NotBuiltIn {
+        /// What was asked for.
+        name: String,
+    },
+    /// OpenHaptics does not give it.
+    #[error(transparent)]
+    OpenHaptics(#[from] NoOpenHaptics),
 }
 
 /// A device that was opened.
@@ -56,30 +79,61 @@ pub struct Opened {
     pub device: Box<dyn Device>,
     /// The way from a mouse into its hand, if one leads there.
     pub mouse: Option<MousePort>,
+    /// What turns its servo; none: a thread of ours.
+    pub scheduler: Option<Box<dyn Scheduler>>,
+    /// Who knows why it is not ready.
+    pub explains: Option<Arc<dyn Explain>>,
+}
+
+impl Opened {
+    /// A device that a thread of ours turns, and that nobody else has to do with.
+    pub fn new(device: impl Device + 'static) -> Self {
+        Opened { device: Box::new(device), mouse: None, scheduler: None, explains: None }
+    }
 }
 
 /// Opens the device that a scene names; none where it wants none.
 ///
 /// # Errors
-/// [`NoDevice`] if this build does not know it.
+/// [`NoDevice`] if this build does not know it, or it is not there.
 pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
     let spec = DeviceSpec::OMNI;
     match wanted {
         HapticDevice::None => Ok(None),
-        HapticDevice::Auto | HapticDevice::Simulated => {
-            let guide = Guide::Script(roaming());
-            let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
-            Ok(Some(Opened { device: Box::new(device), mouse: None }))
+        HapticDevice::Auto => Ok(Some(first_there().unwrap_or_else(simulated))),
+        HapticDevice::Simulated => Ok(Some(simulated())),
+        HapticDevice::OpenHaptics(name) => {
+            let library = openhaptics::named();
+            Ok(Some(openhaptics::open(library.as_deref(), name.as_deref())?))
         }
         HapticDevice::Mouse => {
             let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
             let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
-            Ok(Some(Opened { device: Box::new(device), mouse: Some(MousePort(port)) }))
+            Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
         }
-        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics | HapticDevice::Haply => {
-            Err(NoDevice { name: wanted.name() })
+        HapticDevice::Recorded(_) | HapticDevice::Haply => {
+            Err(NoDevice::NotBuiltIn { name: wanted.name() })
+        }
+    }
+}
+
+/// A simulated device in nobody's hand.
+fn simulated() -> Opened {
+    let guide = Guide::Script(roaming());
+    Opened::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide))
+}
+
+/// The first real device that is there. Who has no vendor's library has no device, and need not be
+/// told.
+fn first_there() -> Option<Opened> {
+    match openhaptics::open(openhaptics::named().as_deref(), None) {
+        Ok(opened) => Some(opened),
+        Err(NoOpenHaptics::NoLibrary { .. }) => None,
+        Err(error) => {
+            log::warn!("{error}");
+            None
         }
     }
 }
@@ -200,7 +254,7 @@ mod tests {
 
     #[test]
     fn a_mouse_moves_the_hand_of_its_device() {
-        let Opened { mut device, mouse } = open(&HapticDevice::Mouse).unwrap().unwrap();
+        let Opened { mut device, mouse, .. } = open(&HapticDevice::Mouse).unwrap().unwrap();
         let mut mouse = FeltMouse::new(mouse.unwrap());
         mouse.hear(&RawInput::Moved { right: 0.25, up: 0.0 });
         mouse.hear(&RawInput::Button { button: Button::Left, down: true });
@@ -224,12 +278,11 @@ mod tests {
 
     #[test]
     fn what_is_listed_without_a_specification_is_refused() {
-        for device in [HapticDevice::OpenHaptics, HapticDevice::Haply] {
-            let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
-            assert_eq!(listed.spec, None);
-            let error = open(&device).err().unwrap().to_string();
-            assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
-        }
+        let device = HapticDevice::Haply;
+        let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
+        assert!(listed.spec.is_none() && !listed.is_built_in);
+        let error = open(&device).err().unwrap().to_string();
+        assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
         assert!(open(&HapticDevice::None).unwrap().is_none());
         assert!(open(&HapticDevice::Auto).unwrap().is_some());
     }

@@ -141,6 +141,7 @@ impl DrawList {
                 list.show_call(view);
             }
             HumanMode::Placing => list.show_placing(view, radii),
+            HumanMode::HoldingStylus => list.show_call(view),
             HumanMode::Choosing | HumanMode::Watching | HumanMode::Paused => {}
         }
         list

@@ -68,8 +68,8 @@ fn devices_are_listed_and_what_is_not_built_in_says_so() {
     let is = |name: &str| lines.iter().find(|line| line["name"] == name).unwrap();
     assert_eq!(is("simulated")["built_in"], true);
     assert_eq!(is("mouse")["spec"]["force_max_n"], 3.3);
-    assert_eq!(is("openhaptics")["built_in"], false);
-    assert_eq!(lines.last().unwrap()["summary"]["built_in"], 2);
+    assert_eq!(is("openhaptics")["built_in"], true);
+    assert_eq!(lines.last().unwrap()["summary"]["built_in"], 3);
     let plain = program(&["haptic", "devices"]);
     assert!(
         text(&plain.stdout)
@@ -114,6 +114,13 @@ fn a_scene_says_what_its_servo_will_get() {
     let json = lines(&program(&["scene", "haptic_touch", "--json"]).stdout);
     let servo = &json.last().unwrap()["summary"]["servo"];
     assert_eq!([&servo["priority"], &servo["spin_us"]], [80, 100]);
+    let file = folder("haptic_scene").join("omni.toml");
+    let own = "[scene]\nname = \"x\"\n[physics]\n[haptic]\ndevice = \"openhaptics\"\n";
+    fs::write(&file, own).unwrap();
+    let told = program(&["scene", file.to_str().unwrap()]);
+    for part in ["servo in the scheduler of the device's library", "80: the vendor's scheduler"] {
+        assert!(text(&told.stdout).contains(part), "{told:?}");
+    }
     let none = lines(&program(&["scene", "eight_ball", "--json"]).stdout);
     assert!(none.last().unwrap()["summary"]["servo"].is_null());
 }

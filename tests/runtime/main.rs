@@ -7,14 +7,20 @@
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// Forces that end when something fails while a wall is felt.
+mod contact;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
+/// The table of failures, cell by cell.
+mod failures;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// From the stylus to the mouse and back.
+mod hand_over;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.
@@ -23,11 +29,16 @@ mod hearing;
 mod json;
 /// Who stands in for whom.
 mod mocks;
+/// Devices of the vendor's HD library, in front of a stub of it.
+mod openhaptics;
 /// What enters from outside: pauses, wrong files.
 mod outside;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;
+/// Real-time rights for ordinary users.
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 /// Recordings of games that were interrupted or killed.
 #[cfg(unix)]
 mod recordings;
@@ -39,6 +50,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// The stub of the vendor's HD library.
+mod stub_hd;
 /// Who dies and what then.
 mod supervision;
 /// The progress bar.

@@ -3,7 +3,7 @@
 use crate::cli::folder;
 use crate::counting::calls;
 use crate::hearing::Hears;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use hapticbillard::cue::Aim;
 use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics};
 use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
@@ -34,7 +34,7 @@ use std::time::{Duration, Instant};
 
 /// What a test knows of a device, and what it makes it do.
 #[derive(Default)]
-struct Wires {
+pub struct Wires {
     /// Size of the last force that was written [N], as bits.
     force: AtomicU64,
     held: AtomicU8,
@@ -80,12 +80,12 @@ impl Drop for Wired {
 }
 
 /// What the device is pushed with [N]: less than what the start ramp waits for.
-const PUSH_N: f64 = 0.1;
+pub const PUSH_N: f64 = 0.1;
 
 fn wired() -> (Plan, Arc<Wires>) {
     let wires = Arc::new(Wires::default());
     let plan = Plan {
-        opened: Opened { device: Box::new(Wired(wires.clone())), mouse: None },
+        opened: Opened::new(Wired(wires.clone())),
         asked: Asked { core: Core::Any, lock_memory: false, ..Asked::default() },
         mesh: None,
         effects: EffectSet::of(1, &[Effect::Constant { force: DVec3::X * PUSH_N }]),
@@ -97,13 +97,13 @@ fn wired() -> (Plan, Arc<Wires>) {
 }
 
 /// A world that does nothing but live, as long as this does.
-struct Heart {
+pub struct Heart {
     beats: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Heart {
-    fn of(signs: &Arc<Signs>) -> Self {
+    pub fn of(signs: &Arc<Signs>) -> Self {
         let (signs, beats) = (signs.clone(), Arc::new(AtomicBool::new(true)));
         let go_on = beats.clone();
         let thread = std::thread::spawn(move || {
@@ -124,7 +124,7 @@ impl Drop for Heart {
 }
 
 #[track_caller]
-fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
+pub fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
     while !is_so() {
         assert!(start.elapsed() < Duration::from_secs(60), "in vain: {what}");
@@ -140,7 +140,7 @@ fn wait_for_nothing(wires: &Wires) {
     wait_for("no force", || wires.force_n() == 0.0);
 }
 
-fn tokio() -> tokio::runtime::Runtime {
+pub fn tokio() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().build().unwrap()
 }
 
@@ -315,7 +315,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
     assert_eq!(wires.force_n(), 0.0);
 }
 
-/// Asks until the control has news; returns the reason and the last tick's flags.
+/// Asks until the control has news; returns the reason.
 fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
     let mut reason = String::new();
     wait_for("news", || {
@@ -499,4 +499,31 @@ fn a_hand_breaks_and_the_referee_judges_it() {
         _ => None,
     });
     assert_eq!(verdicts.len(), 1, "{verdicts:?}");
+}
+
+#[test]
+fn a_mouse_turns_and_raises_the_workspace() {
+    let file = folder("turned_workspace").join("two_hands.toml");
+    fs::write(&file, TWO_HANDS).unwrap();
+    let stage = Stage::new(&load_scene(file.to_str().unwrap()).unwrap(), "two_hands").unwrap();
+    let (wired, _) = wired();
+    let Plan { opened, asked, .. } = wired;
+    let plan = Plan { opened, asked, ..stage.haptic().unwrap().unwrap() };
+    let Started { seat, .. } = Seat::start(plan).unwrap();
+    let runtime = tokio();
+    let control = {
+        let _inside = runtime.enter();
+        Haptic::spawn(Haptic::new(&seat).unwrap())
+    };
+    let look = || runtime.block_on(control.ask(Look).send()).unwrap().report;
+    wait_for("a workspace", || look().elevation_rad > 0.0);
+    let before = look();
+    seat.signs().turn(DVec2::new(0.3, 0.1));
+    seat.signs().turn(DVec2::new(-0.1, 0.1));
+    let is_near = |angle: f64, expected: f64| (angle - expected).abs() < 1e-9;
+    wait_for("the turn", || {
+        let now = look();
+        is_near(now.azimuth_rad, before.azimuth_rad + 0.2)
+            && is_near(now.elevation_rad, before.elevation_rad + 0.2)
+    });
 }

@@ -4,7 +4,9 @@ use crate::cli::{Status, json_line, positive};
 use clap::Args;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
-use hapticbillard::haptic::{Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region};
+use hapticbillard::haptic::{
+    Counters, Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region,
+};
 use hapticbillard::ids::BallId;
 use hapticbillard::scene::HapticDevice;
 use hapticbillard_actors::error::Error;
@@ -20,14 +22,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const EXAMPLE: &str = "\
-It runs the servo as a game does: simulated device, the table and the 16 balls of eight_ball, 8
-effects. Lateness is from a deadline to the wake; other programs, a virtual machine and the system
-cause it. Work is the thread's own processor time per tick. It exits with 1 only if more than one
-tick in 1000 worked for more than half a millisecond, which is the servo's own making.
+It runs the servo as a game does: the table and the 16 balls of eight_ball, 8 weak effects.
+Lateness is from a deadline to the wake; other programs, a virtual machine and the system cause it.
+Work is the thread's own processor time per tick. It exits with 1 if more than one tick in 1000
+worked for more than half a millisecond, which is the servo's own making, or if the device is not
+ready at the end.
+
+A real device is pushed, and with its whole force where its stylus is moved against a ball: hold
+it. Where a vendor's library has a scheduler of its own, that one turns the servo; --core,
+--priority and --spin-us are its affair then, and lateness is from one period after the last tick.
 
 Examples:
   hapticbillard haptic check
-  hapticbillard haptic check --seconds 15 --load --json";
+  hapticbillard haptic check --seconds 15 --load --json
+  hapticbillard haptic check --device openhaptics";
 
 /// The scene that is felt.
 const SCENE: &str = "eight_ball";
@@ -43,6 +51,10 @@ pub struct CheckArgs {
     #[arg(allow_negative_numbers = true)]
     pub seconds: f64,
 
+    /// The device, as a scene names it: see `hapticbillard haptic devices`.
+    #[arg(long, value_name = "DEVICE", default_value = "simulated", value_parser = device)]
+    pub device: HapticDevice,
+
     /// Keeps every core busy meanwhile.
     #[arg(long)]
     pub load: bool,
@@ -56,12 +68,28 @@ pub struct CheckArgs {
     pub priority: Option<u8>,
 
     /// How long before a deadline to stop sleeping [µs].
-    #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=500))]
     pub spin_us: Option<u32>,
 
     /// Prints JSON lines.
     #[arg(long)]
     pub json: bool,
+}
+
+fn device(text: &str) -> Result<HapticDevice, String> {
+    let device = HapticDevice::named(text).filter(|device| *device != HapticDevice::None);
+    device.ok_or("`hapticbillard haptic devices` lists them".to_string())
+}
+
+/// What came of it.
+struct Checked {
+    seat: Arc<Seat>,
+    /// What the safety chain did.
+    counters: Counters,
+    /// Why the device was not ready, in the order in which that was seen.
+    troubles: Vec<String>,
+    /// Whether it is not ready now.
+    is_in_trouble: bool,
 }
 
 /// Runs the servo and tells.
@@ -78,22 +106,22 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         return Err(Error::input("--seconds", problem, "write a number up to 86400"));
     }
     let stage = Stage::new(&load_scene(SCENE)?, SCENE)?;
-    let seat = {
+    let checked = {
         let _load = args.load.then(Load::start);
-        felt(&stage, asked, Duration::from_secs_f64(args.seconds))?
+        felt(&stage, args, asked)?
     };
-    let timing = seat.timing();
+    let timing = checked.seat.timing();
     let is_ours = timing.overruns() * OVERRUN_IN > timing.ticks();
     if args.json {
-        json_line(out, &json!({ "summary": summary(args, &seat, asked) }))?;
+        json_line(out, &json!({ "summary": summary(args, &checked, asked) }))?;
     } else {
-        print(&seat, asked, out)?;
+        print(&checked, asked, out)?;
     }
-    Ok(if is_ours || !seat.is_running() { Status::CheckFailed } else { Status::Success })
+    Ok(if is_ours || checked.is_in_trouble { Status::CheckFailed } else { Status::Success })
 }
 
 /// Lets the scene be felt for a while, its balls handed over every millisecond.
-fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Error> {
+fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error> {
     let balls = stage.scene.build_balls(&stage.table)?;
     let simulation = stage.simulation()?;
     let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
@@ -101,7 +129,7 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
     let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
     let reach =
         cue_ball.map(|(_, state)| Reach::to_ball(1, state.position, &aim, &settings, &parameters));
-    let Some(opened) = open(&HapticDevice::Simulated)? else {
+    let Some(opened) = open(&args.device)? else {
         return Err(Error::input("haptic check", "there is no device", "report this as a defect"));
     };
     let plan = Plan {
@@ -114,15 +142,20 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
     let Started { seat, mut world, .. } = Seat::start(plan)?;
-    let held = seat.hold();
-    let end = Instant::now() + duration;
+    let mut held = seat.hold();
+    let end = Instant::now() + Duration::from_secs_f64(args.seconds);
     let table = simulation.snapshot(simulation.now_s());
+    let mut troubles = Vec::new();
     while Instant::now() < end && seat.is_running() {
         world.show(&table);
+        troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
         std::thread::sleep(Duration::from_millis(1));
     }
+    let counters = held.as_mut().map(|held| held.report().counters).unwrap_or_default();
+    let is_in_trouble = !seat.is_running() || seat.why().is_some();
+    troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
     drop(held);
-    Ok(seat)
+    Ok(Checked { seat, counters, troubles, is_in_trouble })
 }
 
 /// Eight effects, weak enough for the hand to pass through all of them.
@@ -186,8 +219,9 @@ fn quantiles(histogram: &Histogram) -> Value {
     json!({ "p50": p50, "p99": p99, "p99_9": p99_9, "max": us(histogram.most()) })
 }
 
-fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
-    let (timing, obtained) = (seat.timing(), seat.obtained());
+fn summary(args: &CheckArgs, checked: &Checked, asked: Asked) -> Value {
+    let Checked { seat, counters, troubles, .. } = checked;
+    let (timing, obtained, spec) = (seat.timing(), seat.obtained(), seat.spec());
     let rights = |wanted: Value, grant: &Grant| json!({ "asked": wanted, "outcome": grant });
     json!({
         "seconds": args.seconds,
@@ -202,10 +236,31 @@ fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
         "lateness_us": quantiles(&timing.lateness),
         "work_us": quantiles(&timing.work),
         "overruns": timing.overruns(),
+        "device": {
+            "name": args.device.name(),
+            "model": spec.model,
+            "rate_hz": spec.rate_hz,
+            "force_max_n": spec.force_max_n,
+            "refused": seat.device_refusal().map(ToString::to_string),
+            "troubles": troubles,
+        },
+        "safety": {
+            "not_finite": counters.not_finite,
+            "late": counters.late,
+            "stalls": counters.stalls,
+            "too_fast": counters.too_fast,
+        },
     })
 }
 
-fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
+fn print(checked: &Checked, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
+    let Checked { seat, counters, troubles, .. } = checked;
+    let spec = seat.spec();
+    let (model, force_n, rate_hz) = (spec.model, spec.force_max_n, spec.rate_hz);
+    writeln!(out, "device     {model}, {force_n} N, {rate_hz} Hz")?;
+    for trouble in seat.device_refusal().map(ToString::to_string).iter().chain(troubles) {
+        writeln!(out, "trouble    {trouble}")?;
+    }
     write_rights(asked, seat.obtained(), out)?;
     let timing: &Timing = seat.timing();
     let (ticks, missed, late) = (timing.ticks(), timing.missed(), timing.late());
@@ -219,7 +274,13 @@ fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
         )?;
     }
     let overruns = timing.overruns();
-    Ok(writeln!(out, "overruns   {overruns} ticks worked for more than half a millisecond")?)
+    writeln!(out, "overruns   {overruns} ticks worked for more than half a millisecond")?;
+    let Counters { not_finite, late, stalls, too_fast, .. } = counters;
+    Ok(writeln!(
+        out,
+        "safety     {not_finite} readings without numbers, {late} late ticks, {stalls} stalls, \
+         {too_fast} times too fast"
+    )?)
 }
 
 /// What was asked for and what came of it, a line each.
@@ -232,6 +293,9 @@ pub fn write_rights(asked: Asked, obtained: &Obtained, out: &mut dyn Write) -> R
     let parts = [core, priority, memory.to_string()];
     for ((name, grant), wanted) in obtained.parts().into_iter().zip(parts) {
         writeln!(out, "{name:<10} asked for {wanted}: {grant}")?;
+    }
+    if *obtained == Obtained::VENDORS {
+        return Ok(());
     }
     Ok(writeln!(out, "{:<10} awake {} µs before each deadline", "spin", asked.spin_us)?)
 }

@@ -8,11 +8,15 @@ use serde_json::json;
 use std::io::Write;
 
 const EXAMPLE: &str = "\
-A scene names its device in [haptic], such as device = \"mouse\".
+A scene names its device in [haptic], such as device = \"mouse\". Where several devices hang on
+OpenHaptics, device = \"openhaptics:NAME\" names the one that the vendor's program calls NAME. The
+OpenHaptics library is looked for where the system looks for libraries; the environment variable
+HAPTICBILLARD_LIBHD names another file. No device is pushed by this command.
 
 Examples:
   hapticbillard haptic devices
-  hapticbillard haptic devices --json";
+  hapticbillard haptic devices --json
+  HAPTICBILLARD_LIBHD=/opt/OpenHaptics/lib/libHD.so hapticbillard haptic devices";
 
 /// Lists the haptic devices that a scene can name.
 #[derive(Debug, Clone, Args)]
@@ -41,27 +45,33 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
             let line = json!({
                 "name": device.name,
                 "about": device.about,
-                "built_in": spec.is_some(),
+                "built_in": device.is_built_in,
                 "spec": spec,
+                "says": device.says,
             });
             json_line(out, &line)?;
         } else {
             let how = match device.spec {
                 Some(spec) => format!(
-                    "like a {}: {} N, {} N for long, {} N/m, {} Hz",
+                    "{}{}: {} N, {} N for long, {} N/m, {} Hz",
+                    if device.says.is_some() { "" } else { "like a " },
                     spec.model,
                     spec.force_max_n,
                     spec.force_continuous_n,
                     spec.stiffness_max_n_m,
                     spec.rate_hz
                 ),
+                None if device.is_built_in => "not there".to_string(),
                 None => "not built in".to_string(),
             };
             writeln!(out, "{:<14} {}; {how}", device.name, device.about)?;
+            if let Some(says) = &device.says {
+                writeln!(out, "{:<14} {says}", "")?;
+            }
         }
     }
     if args.json {
-        let built_in = devices.iter().filter(|device| device.spec.is_some()).count();
+        let built_in = devices.iter().filter(|device| device.is_built_in).count();
         let summary = json!({ "devices": devices.len(), "built_in": built_in });
         json_line(out, &json!({ "summary": summary }))?;
     }
