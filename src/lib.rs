@@ -27,6 +27,8 @@ pub mod table;
 
 pub mod rack;
 
+pub mod spots;
+
 pub mod scene;
 
 pub mod haptic;

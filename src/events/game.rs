@@ -24,8 +24,8 @@ pub enum Command {
         /// Where it may be put.
         zone: Zone,
     },
-    /// Put balls back on their spots, or as near behind them as there is room. From the rules.
-    SpotBalls(SmallVec<[BallId; 4]>),
+    /// Put balls back on their spots. From the rules.
+    SpotBalls(Spotting),
     /// Rack balls anew. From the rules.
     Rack(Racking),
     /// Put the balls back where they lay before the last shot; training.
@@ -34,6 +34,36 @@ pub enum Command {
     Call(Call),
     /// Take one of the offered options.
     Choose(Choice),
+}
+
+/// Which balls return to the table, and where to.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Spotting {
+    /// The balls, in the order in which they are put down.
+    pub balls: SmallVec<[BallId; 4]>,
+    /// Where they belong.
+    #[serde(default, skip_serializing_if = "Spots::is_pool")]
+    pub spots: Spots,
+}
+
+/// Where balls belong that return to the table.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Spots {
+    /// All on the foot spot, or as near behind it as there is room.
+    #[default]
+    Pool,
+    /// Each of three on a spot of its own, which depends on who shoots next.
+    Carom {
+        /// The ball that is struck next.
+        cue_ball: BallId,
+    },
+}
+
+impl Spots {
+    fn is_pool(&self) -> bool {
+        *self == Spots::Pool
+    }
 }
 
 /// Which balls are racked.
@@ -388,6 +418,7 @@ pub enum Choice {
     PassBack,
     AskAgain,
     Play,
+    SpotFrozen,
 }
 
 /// What the rules say about a shot.

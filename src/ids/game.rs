@@ -13,6 +13,10 @@ macro_rules! for_all_games {
             PaperEightBall "paper-eight-ball" "paper8" paper_eight_ball;
             /// Eight-ball by the rules of the WPA.
             WpaEightBall "wpa-eight-ball" "wpa8" wpa_eight_ball;
+            /// Both other balls, and three cushions before the second.
+            ThreeCushion "three-cushion" "three_cushion" three_cushion;
+            /// Both other balls.
+            FreeCarom "free-carom" "free_carom" free_carom;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
         }

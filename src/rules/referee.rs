@@ -11,7 +11,7 @@ use super::state::State;
 use super::{legal_first, topics};
 use crate::events::{
     BallInHand, Call, CallKind, Choice, Command, Event, Fact, FactKind, Racked, Racking, Source,
-    Topic, Topics, Turn, TurnAfter, Verdict, Zone,
+    Spotting, Topic, Topics, Turn, TurnAfter, Verdict, Zone,
 };
 use crate::hash::StateHash;
 use crate::ids::GameKind;
@@ -153,13 +153,19 @@ impl Referee {
         self.shot = Shot::of(self.state.cue_ball);
         let mut sayings = Sayings::new();
         if !chosen.spot.is_empty() {
-            sayings.push(Event::Command(Command::SpotBalls(chosen.spot)));
+            sayings.push(self.spot(chosen.spot));
         }
         if chosen.rack {
             sayings.push(self.rack(Racked::All));
         }
         sayings.extend(self.announce_turn());
         sayings
+    }
+
+    /// Balls return to where they belong for whoever shoots next.
+    fn spot(&self, balls: SmallVec<[BallId; 4]>) -> Event {
+        let spots = (game(self.game).spots)(&self.state);
+        Event::Command(Command::SpotBalls(Spotting { balls, spots }))
     }
 
     fn rack(&mut self, balls: Racked) -> Event {
@@ -190,6 +196,7 @@ impl Referee {
                 | FactKind::HeadStringCrossed { .. }
                 | FactKind::BallPocketed { .. }
                 | FactKind::BallOffTable { .. }
+                | FactKind::BallsFrozen { .. }
                 | FactKind::Settled { .. } => Sayings::new(),
             },
 
@@ -230,7 +237,7 @@ impl Referee {
         let mut sayings = Sayings::new();
         sayings.push(Event::Verdict(verdict.clone()));
         if !verdict.spot.is_empty() && verdict.options.is_empty() {
-            sayings.push(Event::Command(Command::SpotBalls(verdict.spot.clone())));
+            sayings.push(self.spot(verdict.spot.clone()));
         }
         if let Some(balls) = verdict.rack {
             sayings.push(self.rack(balls));

@@ -39,6 +39,8 @@ pub struct Shot {
     pub placement: Option<(Zone, bool)>,
     /// How often a contact of the tip with the cue ball began.
     pub tips: u32,
+    /// When the first of them did [s].
+    pub struck_s: Option<Seconds>,
     /// The tip was still on the cue ball when that met another ball.
     pub push: bool,
     /// A ball was still moving or spinning when the cue ball was struck.
@@ -60,8 +62,8 @@ pub struct Shot {
     pub rails_after_contact: u32,
     /// Balls that went down or left the table from the first contact of the cue ball on.
     pub gone_after_contact: u32,
-    /// What the cue ball met, in time order.
-    pub cue_met: SmallVec<[Met; 8]>,
+    /// What the cue ball met, and when [s], in time order.
+    pub cue_met: SmallVec<[(Seconds, Met); 8]>,
     /// Object balls that went down, in time order; at the same time, the lower number first.
     pub pocketed: SmallVec<[Pocketed; 4]>,
     /// Object balls that left the table, in ascending order.
@@ -74,6 +76,8 @@ pub struct Shot {
     pub touched: SmallVec<[(BallId, TouchedBy); 2]>,
     /// The cue ball crossed the head string towards the foot before it met a ball.
     pub crossed_head_first: bool,
+    /// Balls that lie against each other at the end.
+    pub frozen: SmallVec<[(BallId, BallId); 2]>,
     /// Everything is at rest: the shot can be judged.
     pub settled: bool,
     /// Snooker: no ball on can be hit on both edges in a straight line.
@@ -91,6 +95,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
         FactKind::BallPlaced { .. } => {}
         FactKind::CueBallStruck { ball, push, moving, player, .. } if ball == cue_ball => {
             shot.tips = shot.tips.saturating_add(1);
+            shot.struck_s.get_or_insert(fact.time_s);
             shot.push |= push;
             shot.moving |= moving;
             shot.struck_by = shot.struck_by.or(player);
@@ -109,7 +114,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
                 shot.rails.push((ball, rail));
                 shot.rails_after_contact += u32::from(shot.first_contact_s.is_some());
                 if ball == cue_ball {
-                    shot.cue_met.push(Met::Rail(rail));
+                    shot.cue_met.push((fact.time_s, Met::Rail(rail)));
                 }
             }
         }
@@ -133,6 +138,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
             }
         }
         FactKind::BallTouched { ball, by } => shot.touched.push((ball, by)),
+        FactKind::BallsFrozen { a, b } => shot.frozen.push((a, b)),
         FactKind::Settled { snookered } => {
             shot.settled = true;
             shot.snookered = snookered;
@@ -141,7 +147,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
 }
 
 fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_kitchen: bool) {
-    shot.cue_met.push(Met::Ball(other));
+    shot.cue_met.push((time_s, Met::Ball(other)));
     let first_s = *shot.first_contact_s.get_or_insert(time_s);
     if first_s == time_s {
         shot.first_contacts.push(other);
@@ -173,6 +179,19 @@ impl Shot {
             self.pocketed.iter().map(|pocketed| pocketed.ball).chain(self.off.iter().copied());
         let mut balls: SmallVec<[BallId; 16]> =
             to_rails.chain(gone).filter(|ball| *ball != self.cue_ball).collect();
+        balls.sort_unstable();
+        balls.dedup();
+        balls
+    }
+
+    /// The balls that lie against this one at the end, in ascending order.
+    pub fn frozen_to(&self, ball: BallId) -> SmallVec<[BallId; 2]> {
+        let other = |(a, b): &(BallId, BallId)| match (*a == ball, *b == ball) {
+            (true, false) => Some(*b),
+            (false, true) => Some(*a),
+            _ => None,
+        };
+        let mut balls: SmallVec<[BallId; 2]> = self.frozen.iter().filter_map(other).collect();
         balls.sort_unstable();
         balls.dedup();
         balls
@@ -225,11 +244,14 @@ impl Shot {
         hash.u64(self.gone_after_contact.into());
         hash_list(
             hash,
-            self.cue_met.iter().map(|met| match met {
+            self.cue_met.iter().map(|(_, met)| match met {
                 Met::Ball(ball) => u64::from(ball.0),
                 Met::Rail(rail) => 1 << 16 | *rail as u64,
             }),
         );
+        self.cue_met.iter().for_each(|(time_s, _)| hash.f64(*time_s));
+        hash.f64(self.struck_s.unwrap_or(-1.0));
+        hash_list(hash, self.frozen.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
         hash_list(hash, self.pocketed.iter().map(|p| u64::from(p.ball.0) << 16 | p.pocket as u64));
         self.pocketed.iter().for_each(|pocketed| hash.f64(pocketed.time_s));
         hash_list(hash, self.off.iter().map(|ball| ball.0.into()));

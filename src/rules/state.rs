@@ -61,6 +61,9 @@ pub struct State {
     /// The ball that the player strikes.
     #[serde(skip_serializing_if = "is_zero")]
     pub cue_ball: BallId,
+    /// Balls that lie against the cue ball, where that matters.
+    #[serde(skip_serializing_if = "SmallVec::is_empty", deserialize_with = "ascending")]
+    pub frozen_to_cue: SmallVec<[BallId; 2]>,
     /// What the player must choose from before anybody shoots; nothing if there is no choice.
     #[serde(skip_serializing_if = "SmallVec::is_empty")]
     pub options: SmallVec<[Choice; 3]>,
@@ -85,6 +88,7 @@ impl Default for State {
             nominated: None,
             free_ball: false,
             cue_ball: BallId::CUE,
+            frozen_to_cue: SmallVec::new(),
             options: SmallVec::new(),
         }
     }
@@ -109,10 +113,13 @@ fn one_of_two<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PlayerId, D:
     }
 }
 
-fn ascending<'de, D: Deserializer<'de>>(
+fn ascending<'de, D: Deserializer<'de>, const N: usize>(
     deserializer: D,
-) -> Result<SmallVec<[BallId; 16]>, D::Error> {
-    let mut balls = SmallVec::deserialize(deserializer)?;
+) -> Result<SmallVec<[BallId; N]>, D::Error>
+where
+    [BallId; N]: smallvec::Array<Item = BallId>,
+{
+    let mut balls: SmallVec<[BallId; N]> = SmallVec::deserialize(deserializer)?;
     balls.sort_unstable();
     balls.dedup();
     Ok(balls)
@@ -215,6 +222,7 @@ impl State {
             nominated: None,
             breaker: self.breaker,
             cue_ball: self.cue_ball,
+            frozen_to_cue: SmallVec::new(),
         }
     }
 
@@ -246,6 +254,7 @@ impl State {
         });
         hash.u64(self.nominated.map_or(0, |ball| 1 + u64::from(ball.0)));
         hash.u64(self.cue_ball.0.into());
+        hash_list(hash, self.frozen_to_cue.iter().map(|ball| ball.0.into()));
         hash_list(hash, self.options.iter().map(|choice| *choice as u64));
     }
 }

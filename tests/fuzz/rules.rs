@@ -375,8 +375,11 @@ impl Account {
 
         let rest = match (verdict.spot.is_empty(), rest) {
             (true, rest) => rest,
-            (false, [Event::Command(Command::SpotBalls(balls)), rest @ ..]) => {
-                require(*balls == verdict.spot, "other balls are spotted than the verdict says")?;
+            (false, [Event::Command(Command::SpotBalls(spotting)), rest @ ..]) => {
+                require(
+                    spotting.balls == verdict.spot,
+                    "other balls are spotted than the verdict says",
+                )?;
                 rest
             }
             (false, _) => return Err("the balls to spot are not spotted".into()),

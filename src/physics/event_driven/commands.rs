@@ -1,14 +1,15 @@
 //! Commands: what a player or the rules want done.
 
 use super::EventDriven;
+use super::body::Body;
 use super::segment::Segment;
 use super::tip::Tip;
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spots, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::rack;
+use crate::spots::{self, Occupied};
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -19,8 +20,8 @@ impl EventDriven {
         checks::check_command(at, command)?;
         let unknown = match command {
             Command::PlaceBall { ball, .. } => self.index(*ball).is_none().then_some(*ball),
-            Command::SpotBalls(balls) => {
-                balls.iter().copied().find(|ball| self.index(*ball).is_none())
+            Command::SpotBalls(spotting) => {
+                spotting.balls.iter().copied().find(|ball| self.index(*ball).is_none())
             }
             _ => None,
         };
@@ -35,9 +36,9 @@ impl EventDriven {
             Command::PlaceBall { ball, position_m, zone } => {
                 self.place_ball(at, *ball, *position_m, *zone);
             }
-            Command::SpotBalls(balls) => {
+            Command::SpotBalls(Spotting { balls, spots }) => {
                 for ball in balls {
-                    self.spot_ball(at, *ball);
+                    self.spot_ball(at, *ball, *spots);
                 }
             }
             // The rules' business.
@@ -102,17 +103,15 @@ impl EventDriven {
         self.wake_neighbours(at, &[index]);
     }
 
-    /// Puts a ball on its spot, or as near behind it as there is room.
-    fn spot_ball(&mut self, at: Seconds, ball: BallId) {
+    /// Puts a ball on its spot, or where it belongs if there is no room.
+    fn spot_ball(&mut self, at: Seconds, ball: BallId, spots: Spots) {
         let (Some(index), Some(bed)) = (self.index(ball), self.terrain.bed) else { return };
-        let radius = self.bodies[index].ball.radius_m;
-        let others = self
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(other, body)| *other != index && body.solid())
-            .map(|(_, body)| (body.segment.position_at(at).truncate(), body.ball.radius_m));
-        let place = rack::spot_position(&bed, others, radius);
-        self.put_down(at, index, place);
+        let lies = |(other, body): (usize, &Body)| {
+            let middle = body.segment.position_at(at).truncate();
+            (other != index && body.solid()).then_some((body.ball.id, middle, body.ball.radius_m))
+        };
+        let others: Vec<Occupied> = self.bodies.iter().enumerate().filter_map(lies).collect();
+        let radius_m = self.bodies[index].ball.radius_m;
+        self.put_down(at, index, spots::place(spots, &bed, ball, radius_m, &others));
     }
 }

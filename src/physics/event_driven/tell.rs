@@ -10,7 +10,7 @@ use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Ledger, tolerance};
+use crate::physics::{Ledger, checks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -221,6 +221,11 @@ impl EventDriven {
         self.moved = false;
         if let Some(tip) = &mut self.tip {
             tip.cue.has_struck = false;
+        }
+        let lies = |body: &Body| (body.ball.id, body.segment.position_at(at), body.ball.radius_m);
+        let solid = self.bodies.iter().filter(|body| body.solid());
+        for (a, b) in checks::frozen_pairs(solid.map(lies).collect()) {
+            self.tell(at, FactKind::BallsFrozen { a, b });
         }
         self.tell(at, FactKind::Settled { snookered: false });
     }

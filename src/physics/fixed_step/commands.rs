@@ -1,13 +1,14 @@
 //! Commands: what a player or the rules want done.
 
+use super::body::Body;
 use super::cue_motion::CueMotion;
 use super::{Due, FixedStep, weight_j};
 use crate::ball::{BallPlace, Motion};
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spots, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::rack;
+use crate::spots::{self, Occupied};
 use crate::units::Seconds;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -20,8 +21,8 @@ impl FixedStep {
             Command::PlaceBall { ball, .. } if self.index(*ball).is_none() => {
                 Err(PhysicsError::UnknownBall(*ball))
             }
-            Command::SpotBalls(balls) => {
-                match balls.iter().find(|ball| self.index(**ball).is_none()) {
+            Command::SpotBalls(spotting) => {
+                match spotting.balls.iter().find(|ball| self.index(**ball).is_none()) {
                     Some(ball) => Err(PhysicsError::UnknownBall(*ball)),
                     None => Ok(()),
                 }
@@ -40,7 +41,9 @@ impl FixedStep {
                 Command::PlaceBall { ball, position_m, zone } => {
                     self.place_ball(ball, position_m, zone);
                 }
-                Command::SpotBalls(balls) => balls.iter().for_each(|ball| self.spot_ball(*ball)),
+                Command::SpotBalls(Spotting { balls, spots }) => {
+                    balls.iter().for_each(|ball| self.spot_ball(*ball, spots));
+                }
                 // The rules' business.
                 Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
             }
@@ -109,17 +112,15 @@ impl FixedStep {
         self.clear_touched_rails(index);
     }
 
-    /// Puts a ball on its spot, or as near behind it as there is room.
-    fn spot_ball(&mut self, ball: BallId) {
+    /// Puts a ball on its spot, or where it belongs if there is no room.
+    fn spot_ball(&mut self, ball: BallId, spots: Spots) {
         let (Some(index), Some(bed)) = (self.index(ball), self.ground.bed) else { return };
-        let radius = self.bodies[index].ball.radius_m;
-        let others = self
-            .bodies
-            .iter()
-            .enumerate()
-            .filter(|(other, body)| *other != index && body.solid())
-            .map(|(_, body)| (body.position.truncate(), body.ball.radius_m));
-        let place = rack::spot_position(&bed, others, radius);
-        self.put_down(index, place);
+        let lies = |(other, body): (usize, &Body)| {
+            let middle = body.position.truncate();
+            (other != index && body.solid()).then_some((body.ball.id, middle, body.ball.radius_m))
+        };
+        let others: Vec<Occupied> = self.bodies.iter().enumerate().filter_map(lies).collect();
+        let radius_m = self.bodies[index].ball.radius_m;
+        self.put_down(index, spots::place(spots, &bed, ball, radius_m, &others));
     }
 }

@@ -3,12 +3,13 @@
 //! A ball that lies at a cushion, or two that lie together, touch in every step. That is told when
 //! it begins and, later, only if they meet with some speed.
 
+use super::body::Body;
 use super::{FixedStep, collect, weight_j};
 use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Profile, tolerance};
+use crate::physics::{Profile, checks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -156,6 +157,11 @@ impl FixedStep {
         }
         if let Some(cue) = &mut self.cue {
             cue.guided.has_struck = false;
+        }
+        let lies = |body: &Body| (body.ball.id, body.position, body.ball.radius_m);
+        let solid = self.bodies.iter().filter(|body| body.solid());
+        for (a, b) in checks::frozen_pairs(solid.map(lies).collect()) {
+            self.tell(now, FactKind::BallsFrozen { a, b });
         }
         self.tell(now, FactKind::Settled { snookered: false });
     }
