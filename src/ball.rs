@@ -9,6 +9,10 @@ use serde::{Deserialize, Serialize};
 pub const POOL_RADIUS_M: f64 = 0.028575;
 /// Mass of a pool ball [kg].
 pub const POOL_MASS_KG: f64 = 0.17;
+/// Radius of a carom ball [m]: 61.5 mm across (UMB: 61 to 61.5 mm).
+pub const CAROM_RADIUS_M: f64 = 0.03075;
+/// Mass of a carom ball [kg] (UMB: 205 to 220 g).
+pub const CAROM_MASS_KG: f64 = 0.21;
 /// Moment of inertia of a solid sphere over m R².
 pub const SOLID_SPHERE: f64 = 0.4;
 
@@ -40,6 +44,11 @@ impl Ball {
             flags: BallFlags::default(),
             spring: None,
         }
+    }
+
+    /// A carom ball.
+    pub fn carom(id: BallId) -> Self {
+        Ball { radius_m: CAROM_RADIUS_M, mass_kg: CAROM_MASS_KG, ..Ball::pool(id) }
     }
 
     /// Moment of inertia [kg m²].

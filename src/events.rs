@@ -10,8 +10,8 @@ mod game;
 pub use fact::{Fact, FactKind, TouchedBy};
 pub use game::{
     BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Choice, Command, Foul, Group, Groups,
-    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spots, Spotting,
-    Turn, TurnAfter, Verdict, Zone,
+    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Turn,
+    TurnAfter, Verdict, Zone,
 };
 
 use crate::ids::PlayerId;

@@ -27,8 +27,6 @@ pub mod table;
 
 pub mod rack;
 
-pub mod spots;
-
 pub mod scene;
 
 pub mod haptic;

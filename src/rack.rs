@@ -4,6 +4,11 @@
 //! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
 //! exists nor has a unique break.
 
+mod carom;
+mod spots;
+
+pub use spots::{Occupied, Spots};
+
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::ids::BallId;
 use crate::table::{Bed, Table};
@@ -41,6 +46,7 @@ pub struct Rack {
 enum Layout {
     EightBall { seed: u64 },
     NineBall { seed: u64 },
+    Carom { cue_ball: BallId },
     Balls(Vec<(Ball, BallState)>),
 }
 
@@ -58,6 +64,13 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
+    /// The white (0), the yellow (1) and the red (2) of carom, ready for the break of the player who
+    /// strikes `cue_ball`: the red on the foot spot, the opponent's ball on the head spot, the own
+    /// one beside it (rules of the UMB).
+    pub fn carom(cue_ball: BallId) -> Rack {
+        Rack { layout: Layout::Carom { cue_ball } }
+    }
+
     /// These balls, just as they are.
     pub fn from_balls(balls: Vec<(Ball, BallState)>) -> Rack {
         Rack { layout: Layout::Balls(balls) }
@@ -65,8 +78,13 @@ impl Rack {
 
     /// The balls on this table, in the order of their ids.
     pub fn place(&self, table: &Table) -> Result<Vec<(Ball, BallState)>, RackError> {
+        let bed = || table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() });
         let (rows, order, mut random) = match &self.layout {
             Layout::Balls(balls) => return sorted(balls.clone()),
+            Layout::Carom { cue_ball } => {
+                let places = carom::carom_start(&bed()?, *cue_ball);
+                return sorted(places.map(|(id, place)| standing(Ball::carom(id), place)).into());
+            }
             Layout::EightBall { seed } => {
                 let mut random = Pcg64Mcg::seed_from_u64(*seed);
                 (&[1, 2, 3, 4, 5][..], eight_ball_order(&mut random), random)
@@ -76,7 +94,7 @@ impl Rack {
                 (&[1, 2, 3, 2, 1][..], nine_ball_order(&mut random), random)
             }
         };
-        let bed = table.bed.ok_or_else(|| RackError::NoBed { table: table.name.clone() })?;
+        let bed = bed()?;
         let mut balls = vec![standing(Ball::pool(BallId::CUE), bed.head_spot())];
         for (id, place) in order.into_iter().zip(places(rows, &bed)) {
             let off = DVec2::new(unit(&mut random), unit(&mut random));

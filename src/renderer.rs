@@ -20,7 +20,7 @@ mod words;
 
 pub use draw_list::{BallInstance, DrawList, GhostBall, Line, Radii};
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
-pub use look::{BallLook, ball_look};
+pub use look::{BallLook, BallSet, ball_look};
 pub use playhead::{Playhead, between};
 pub use scoreboard::Scoreboard;
 pub use shape::{Shape, cue_shape, sphere};

@@ -21,7 +21,7 @@ pub use plan::{PlanKind, PlanLine};
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
 use crate::ids::{BallId, GameKind, PlayerId};
 use crate::mesh::Surface;
-use crate::physics::{Parameters, PhysicsSettings};
+use crate::physics::{Equipment, Parameters, PhysicsSettings};
 use crate::table::Plane;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -136,6 +136,8 @@ pub enum RackKind {
     EightBall,
     /// Nine balls in a diamond, the 9 in its middle, and the cue ball.
     NineBall,
+    /// White, yellow and red of carom.
+    Carom,
 }
 
 impl RackKind {
@@ -144,8 +146,17 @@ impl RackKind {
         let last = match self {
             RackKind::EightBall => 15,
             RackKind::NineBall => 9,
+            RackKind::Carom => 2,
         };
         (0..=last).map(BallId)
+    }
+
+    /// What is played with these balls.
+    pub fn equipment(self) -> Equipment {
+        match self {
+            RackKind::EightBall | RackKind::NineBall => Equipment::Pool,
+            RackKind::Carom => Equipment::Carom,
+        }
     }
 
     /// Its name in a scene.
@@ -153,6 +164,7 @@ impl RackKind {
         match self {
             RackKind::EightBall => "eight-ball",
             RackKind::NineBall => "nine-ball",
+            RackKind::Carom => "carom",
         }
     }
 }

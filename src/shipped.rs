@@ -1,13 +1,18 @@
 //! Configuration that is compiled in, so that the program runs from any folder.
 
 /// The tables, by name: the text of `config/tables/NAME.toml`.
-pub const TABLES: &[(&str, &str)] = &[("pool-9ft", include_str!("../config/tables/pool-9ft.toml"))];
+pub const TABLES: &[(&str, &str)] = &[
+    ("pool-9ft", include_str!("../config/tables/pool-9ft.toml")),
+    ("carom-10ft", include_str!("../config/tables/carom-10ft.toml")),
+];
 
 /// The scenes, by name: the text of `config/scenes/NAME.toml`.
 pub const SCENES: &[(&str, &str)] = &[
     ("eight_ball", include_str!("../config/scenes/eight_ball.toml")),
     ("eight_ball_headless", include_str!("../config/scenes/eight_ball_headless.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
+    ("three_cushion", include_str!("../config/scenes/three_cushion.toml")),
+    ("free_carom", include_str!("../config/scenes/free_carom.toml")),
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),

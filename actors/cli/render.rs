@@ -73,7 +73,8 @@ pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
     simulation.advance(args.at, FactSet::NONE, &mut Vec::new())?;
     let world = simulation.snapshot(args.at);
     let balls = stage.scene.build_balls(&stage.table)?;
-    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)));
+    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_set(stage.scene.equipment().into());
     let list = DrawList::new(&world, &HumanView::default(), &radii);
     let file = png(&stage.table, &list, args.size)?;
     write_whole(&args.out, &file)?;

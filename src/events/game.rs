@@ -36,34 +36,14 @@ pub enum Command {
     Choose(Choice),
 }
 
-/// Which balls return to the table, and where to.
+/// Which balls return to the table.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Spotting {
-    /// The balls, in the order in which they are put down.
+    /// The balls.
     pub balls: SmallVec<[BallId; 4]>,
-    /// Where they belong.
-    #[serde(default, skip_serializing_if = "Spots::is_pool")]
-    pub spots: Spots,
-}
-
-/// Where balls belong that return to the table.
-#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Spots {
-    /// All on the foot spot, or as near behind it as there is room.
-    #[default]
-    Pool,
-    /// Each of three on a spot of its own, which depends on who shoots next.
-    Carom {
-        /// The ball that is struck next.
-        cue_ball: BallId,
-    },
-}
-
-impl Spots {
-    fn is_pool(&self) -> bool {
-        *self == Spots::Pool
-    }
+    /// The ball that is struck next: in carom the other ones' spots depend on it.
+    #[serde(default)]
+    pub cue_ball: BallId,
 }
 
 /// Which balls are racked.

@@ -171,6 +171,7 @@ impl Human {
             aim: self.aim,
             strength_m_s: self.strength_m_s,
             help: self.help,
+            cue_ball: self.cue_ball(),
             ..HumanView::default()
         };
         match &self.stage {
@@ -337,7 +338,7 @@ impl Human {
         let mut aim = self.aim;
         change(&mut aim);
         aim = aim.limited();
-        let needed = sight::elevation_needed(aim, self.centre, &self.seen, &self.table);
+        let needed = sight::elevation_needed(aim, self.centre, self.others(), &self.table);
         aim.elevation_rad = self.raised_rad.max(needed);
         if aim == self.aim {
             return;
@@ -349,8 +350,18 @@ impl Human {
 
     fn sight(&mut self) {
         let (sin, cos) = libm::sincos(self.aim.azimuth_rad);
-        let (seen, bed) = (&self.seen, self.table.bed.as_ref());
-        self.ghost = sight::ghost(seen, bed, self.centre, DVec2::new(cos, sin));
+        let bed = self.table.bed.as_ref();
+        self.ghost = sight::ghost(self.others(), bed, self.centre, DVec2::new(cos, sin));
+    }
+
+    /// The ball that is struck in this turn.
+    fn cue_ball(&self) -> BallId {
+        self.turn.as_ref().map_or(BallId::CUE, |turn| turn.cue_ball)
+    }
+
+    /// The middles of the other balls in play [m].
+    fn others(&self) -> impl Iterator<Item = DVec3> + Clone + '_ {
+        sight::object_balls(&self.seen, self.cue_ball())
     }
 
     /// The left button went down.
@@ -361,8 +372,8 @@ impl Human {
         match &mut self.stage {
             Stage::Placing(placing) if !placing.is_put => {
                 placing.is_put = true;
-                let (position_m, zone) = (placing.at, placing.zone);
-                self.command(Command::PlaceBall { ball: BallId::CUE, position_m, zone });
+                let Placing { ball, zone, at: position_m, .. } = *placing;
+                self.command(Command::PlaceBall { ball, position_m, zone });
             }
             Stage::Aiming => self.stage = Stage::Stroking(Box::new(Tip::new())),
             _ => {}
@@ -451,7 +462,7 @@ impl Human {
 
     fn hear_fact(&mut self, fact: &Fact, tick: Tick) {
         match fact.kind {
-            FactKind::BallPlaced { ball: BallId::CUE, ok, .. } => {
+            FactKind::BallPlaced { ball, ok, .. } if ball == self.cue_ball() => {
                 if let Stage::Placing(placing) = &mut self.stage {
                     placing.is_put = false;
                     if ok {
@@ -482,14 +493,15 @@ impl Human {
         self.leave_table();
         let zone = match turn.ball_in_hand.zone() {
             // A cue ball that is nowhere must be put down whatever the turn says.
-            None if sight::cue_ball(&self.seen).is_none() => Some(Zone::Anywhere),
+            None if sight::lies(&self.seen, turn.cue_ball).is_none() => Some(Zone::Anywhere),
             zone => zone,
         };
         self.turn = Some(turn);
         match zone {
             Some(zone) => {
                 let bed = self.table.bed.as_ref();
-                self.stage = Stage::Placing(Placing::new(zone, &self.seen, bed, self.tee));
+                let (ball, seen) = (self.cue_ball(), &self.seen);
+                self.stage = Stage::Placing(Placing::new(zone, ball, seen, bed, self.tee));
             }
             None => self.address(),
         }
@@ -497,7 +509,8 @@ impl Human {
 
     /// Puts the cue behind the cue ball.
     fn address(&mut self) {
-        let (Some(centre), Some(turn)) = (sight::cue_ball(&self.seen), &self.turn) else {
+        let (Some(centre), Some(turn)) = (sight::lies(&self.seen, self.cue_ball()), &self.turn)
+        else {
             return;
         };
         let bed = self.table.bed.as_ref();
@@ -554,7 +567,7 @@ impl Participant for Human {
 
     fn start(&mut self, table: &Snapshot) -> Outcome {
         self.seen = Arc::new(table.clone());
-        self.tee = sight::cue_ball(table).map_or(DVec2::ZERO, DVec3::truncate);
+        self.tee = sight::lies(table, BallId::CUE).map_or(DVec2::ZERO, DVec3::truncate);
         Outcome::default()
     }
 

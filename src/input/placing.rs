@@ -1,7 +1,8 @@
 //! Ball in hand: where the mouse holds the cue ball, and whether it may lie there.
 
-use super::sight::{cue_ball, object_balls};
+use super::sight::{lies, object_balls};
 use crate::events::Zone;
+use crate::ids::BallId;
 use crate::physics::{Snapshot, may_stand};
 use crate::table::{Bed, Table};
 use glam::DVec2;
@@ -9,6 +10,8 @@ use glam::DVec2;
 /// The cue ball is in hand.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Placing {
+    /// The ball.
+    pub ball: BallId,
     /// Where it may be put.
     pub zone: Zone,
     /// Where it is held [m].
@@ -20,11 +23,17 @@ pub(super) struct Placing {
 impl Placing {
     /// Takes the ball up from where it lies, or brings it to the head spot; to the tee [m] where
     /// there is no bed.
-    pub fn new(zone: Zone, on_table: &Snapshot, bed: Option<&Bed>, tee: DVec2) -> Self {
-        let lies = cue_ball(on_table).map(|ball| ball.truncate());
+    pub fn new(
+        zone: Zone,
+        ball: BallId,
+        on_table: &Snapshot,
+        bed: Option<&Bed>,
+        tee: DVec2,
+    ) -> Self {
+        let lies = lies(on_table, ball).map(|ball| ball.truncate());
         let home = bed.map_or(tee, Bed::head_spot);
         let in_zone = |place: &DVec2| bed.is_none_or(|bed| bed.in_zone(zone, *place));
-        Placing { zone, at: lies.filter(in_zone).unwrap_or(home), is_put: false }
+        Placing { ball, zone, at: lies.filter(in_zone).unwrap_or(home), is_put: false }
     }
 
     /// Moves it; it does not leave the bed.
@@ -39,7 +48,7 @@ impl Placing {
     /// Whether it may lie where it is held: in its zone, on the bed, on no other ball.
     pub fn is_allowed(&self, on_table: &Snapshot, table: &Table, radius_m: f64) -> bool {
         // A ball's middle lies its radius above the bed.
-        let others = object_balls(on_table).map(|ball| (ball, ball.z));
+        let others = object_balls(on_table, self.ball).map(|ball| (ball, ball.z));
         let bed = table.bed.as_ref();
         may_stand(bed, &table.pockets, others, radius_m, self.at, self.zone)
     }

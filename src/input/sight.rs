@@ -11,21 +11,25 @@ use glam::{DVec2, DVec3};
 /// By how much the cue is raised at a time to find a way past a ball [rad].
 const RAISE_RAD: f64 = 0.25 * std::f64::consts::PI / 180.0;
 
-/// Where the cue ball's middle is on the bed, if it is in play [m].
-pub(super) fn cue_ball(table: &Snapshot) -> Option<DVec3> {
-    table.on_table().find(|ball| ball.id == BallId::CUE).map(|ball| ball.position)
+/// Where a ball's middle is, if it is in play [m].
+pub(super) fn lies(table: &Snapshot, ball: BallId) -> Option<DVec3> {
+    table.on_table().find(|other| other.id == ball).map(|ball| ball.position)
 }
 
-/// The middles of the object balls in play [m].
-pub(super) fn object_balls(table: &Snapshot) -> impl Iterator<Item = DVec3> + '_ {
-    table.on_table().filter(|ball| ball.id != BallId::CUE).map(|ball| ball.position)
+/// The middles of all balls in play but the cue ball [m].
+pub(super) fn object_balls(
+    table: &Snapshot,
+    cue_ball: BallId,
+) -> impl Iterator<Item = DVec3> + Clone + '_ {
+    table.on_table().filter(move |ball| ball.id != cue_ball).map(|ball| ball.position)
 }
 
 /// Where a turn's first aim points: at the rack's apex on a break, else (or if nobody racked) at
 /// the nearest ball that may be met first, and along the table if there is none.
 pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: DVec2) -> DVec2 {
-    let is_racked =
-        |apex: &DVec2| object_balls(table).any(|ball| ball.truncate().distance(*apex) < ball.z);
+    let is_racked = |apex: &DVec2| {
+        object_balls(table, turn.cue_ball).any(|b| b.truncate().distance(*apex) < b.z)
+    };
     let apex = bed.map(Bed::foot_spot).filter(|_| turn.shot == ShotKind::Break).filter(is_racked);
     let nearest = || {
         let may_be_met = |id: &BallId| turn.legal_first.contains(id);
@@ -38,12 +42,17 @@ pub(super) fn first_aim(turn: &Turn, table: &Snapshot, bed: Option<&Bed>, from: 
     (target - from).normalize_or(DVec2::X)
 }
 
-/// Smallest elevation at which the cue of `aim` clears hand, rails and balls behind the cue ball
-/// [rad].
-pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table: &Table) -> f64 {
+/// Smallest elevation at which the cue of `aim` clears hand, rails and the balls `others` behind
+/// the cue ball, whose middle is at `centre` [rad].
+pub(super) fn elevation_needed(
+    aim: Aim,
+    centre: DVec3,
+    others: impl Iterator<Item = DVec3> + Clone,
+    table: &Table,
+) -> f64 {
     let radius_m = centre.z;
     let direction = Aim { elevation_rad: 0.0, ..aim }.direction().truncate();
-    let places = object_balls(others).map(DVec3::truncate);
+    let places = others.clone().map(DVec3::truncate);
     let over_balls = elevation_over_balls(centre.truncate(), direction, places, radius_m);
     let over_rail = table.clearance_elevation(centre.truncate(), aim.azimuth_rad);
     let mut elevation_rad = over_balls.max(over_rail).max(ELEVATION_MIN_RAD);
@@ -56,7 +65,7 @@ pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table
             let back = (tip - ball).dot(held.direction()).clamp(0.0, CUE_LENGTH_M);
             (tip - held.direction() * back).distance(ball) > reach
         };
-        if object_balls(others).all(is_clear) {
+        if others.clone().all(is_clear) {
             break;
         }
         elevation_rad += RAISE_RAD;
@@ -64,17 +73,17 @@ pub(super) fn elevation_needed(aim: Aim, centre: DVec3, others: &Snapshot, table
     elevation_rad.min(ELEVATION_MAX_RAD)
 }
 
-/// Where the cue ball's middle is when it meets the first ball or cushion on its straight way
+/// Where the cue ball's middle is when it meets the first of the balls `others` or cushion on its straight way
 /// [m], and which way the ball that is met leaves; zero if it meets a cushion.
 pub(super) fn ghost(
-    table: &Snapshot,
+    others: impl Iterator<Item = DVec3>,
     bed: Option<&Bed>,
     centre: DVec3,
     direction: DVec2,
 ) -> Option<(DVec3, DVec2)> {
     let radius_m = centre.z;
     let from = centre.truncate();
-    let met = object_balls(table).filter_map(|ball| {
+    let met = others.filter_map(|ball| {
         let to = ball.truncate() - from;
         let (along, beside) = (to.dot(direction), to.perp_dot(direction));
         let rest = 4.0 * radius_m * radius_m - beside * beside;

@@ -1,6 +1,7 @@
 //! What a player at mouse and keyboard sees and does, for the picture.
 
 use crate::cue::Aim;
+use crate::ids::BallId;
 use glam::{DVec2, DVec3};
 
 /// From where the picture is taken.
@@ -48,6 +49,8 @@ pub struct HumanView {
     pub camera: CameraPose,
     /// What the player is doing.
     pub mode: HumanMode,
+    /// The ball that is struck.
+    pub cue_ball: BallId,
     /// How the cue is held, while aiming and stroking.
     pub aim: Aim,
     /// How far the tip is from where it meets the ball [m], backwards, while stroking.

@@ -4,7 +4,7 @@ use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
 use super::laws::cloth::Carrying;
 use super::laws::mathavan_2010;
 use super::laws::speed_friction::FrictionCurve;
-use super::{ExactTolerances, PhysicsSettings, Profile};
+use super::{Equipment, ExactTolerances, PhysicsSettings, Profile};
 use crate::mesh::Surface;
 
 /// Restitution and friction of a contact.
@@ -120,8 +120,13 @@ impl Parameters {
 
     /// The parameters that a scene's settings ask for.
     pub fn of(settings: &PhysicsSettings) -> Self {
+        Self::with_equipment(settings, Equipment::Pool)
+    }
+
+    /// The same for another game's equipment. The paper's profile knows only its own.
+    pub fn with_equipment(settings: &PhysicsSettings, equipment: Equipment) -> Self {
         let mut parameters = match settings.profile {
-            Profile::Standard => Self::pool(),
+            Profile::Standard => equipment.parameters(),
             Profile::Paper2009 => Self::paper_2009(),
         };
         parameters.gravity_m_s2 = settings.gravity_m_s2;

@@ -1,6 +1,6 @@
 //! The draw list: what is where in one picture, in `f32` as graphics cards want it.
 
-use super::look::{BallLook, ball_look};
+use super::look::{BallLook, BallSet};
 use crate::ball::{BallPlace, BallState, POOL_RADIUS_M};
 use crate::cue::{CuePose, TIP_RADIUS_M};
 use crate::ids::BallId;
@@ -15,16 +15,17 @@ const LINE_HALF_WIDTH_M: f32 = 0.0016;
 /// How far the line of an object ball's way is drawn [m].
 const OBJECT_WAY_M: f64 = 0.30;
 
-/// The radii of the balls and of the tip; they do not change in a game.
+/// The radii of the balls and of the tip, and how balls look; they do not change in a game.
 #[derive(Debug, Clone)]
 pub struct Radii {
     balls: Vec<(BallId, f64)>,
     tip_m: f64,
+    set: BallSet,
 }
 
 impl Default for Radii {
     fn default() -> Self {
-        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M }
+        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M, set: BallSet::Pool }
     }
 }
 
@@ -40,6 +41,12 @@ impl Radii {
     #[must_use]
     pub fn with_tip(self, tip_m: f64) -> Self {
         Radii { tip_m, ..self }
+    }
+
+    /// The same for the balls of another game.
+    #[must_use]
+    pub fn with_set(self, set: BallSet) -> Self {
+        Radii { set, ..self }
     }
 
     /// The radius of a ball [m]; a pool ball's if nobody said.
@@ -107,7 +114,7 @@ impl DrawList {
     /// What a player sees of the world.
     pub fn new(world: &Snapshot, view: &HumanView, radii: &Radii) -> Self {
         // A cue ball that lay on the table when it was taken up is in the hand now.
-        let in_hand = view.placing.map(|_| BallId::CUE);
+        let in_hand = view.placing.map(|_| view.cue_ball);
         let balls = world
             .on_table()
             .filter(|ball| Some(ball.id) != in_hand)
@@ -129,9 +136,9 @@ impl DrawList {
     }
 
     fn show_aim(&mut self, world: &Snapshot, view: &HumanView, radii: &Radii) {
-        let cue_ball = world.ball(BallId::CUE).filter(|ball| ball.place == BallPlace::OnTable);
+        let cue_ball = world.ball(view.cue_ball).filter(|ball| ball.place == BallPlace::OnTable);
         let (Some(cue_ball), Some(ghost)) = (cue_ball, view.ghost) else { return };
-        let radius_m = radii.of(BallId::CUE);
+        let radius_m = radii.of(view.cue_ball);
         let way = (ghost - cue_ball.position).truncate();
         let length = way.length();
         let ahead = way.normalize_or_zero();
@@ -155,7 +162,7 @@ impl DrawList {
 
     fn show_placing(&mut self, view: &HumanView, radii: &Radii) {
         let Some(at) = view.placing else { return };
-        let radius_m = radii.of(BallId::CUE);
+        let radius_m = radii.of(view.cue_ball);
         let colour =
             if view.placing_allowed { [1.0, 1.0, 0.96, 0.85] } else { [0.95, 0.2, 0.15, 0.6] };
         let position = at.extend(radius_m).as_vec3().to_array();
@@ -182,7 +189,7 @@ fn held(cue: CuePose, radii: &Radii) -> CuePose {
 fn instance(ball: &BallState, radii: &Radii) -> BallInstance {
     BallInstance {
         id: ball.id,
-        look: ball_look(ball.id),
+        look: radii.set.look(ball.id),
         position: ball.position.as_vec3().to_array(),
         orientation: (ball.orientation * tossed(ball.id)).as_quat().to_array(),
         radius_m: radii.of(ball.id) as f32,

@@ -1,6 +1,7 @@
 //! How balls look: colour, stripe and number.
 
 use crate::ids::BallId;
+use crate::physics::Equipment;
 
 /// The look of a ball. Its own frame: the discs with the number are at +x and −x, the stripe runs
 /// round +z, and z is up where the number stands upright.
@@ -12,6 +13,45 @@ pub struct BallLook {
     pub is_striped: bool,
     /// The number in the discs; none for balls without discs.
     pub number: Option<u16>,
+}
+
+/// The balls of a game.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum BallSet {
+    /// Solids and stripes with numbers.
+    #[default]
+    Pool,
+    /// White, yellow and red, without numbers.
+    Carom,
+}
+
+impl From<Equipment> for BallSet {
+    fn from(equipment: Equipment) -> Self {
+        match equipment {
+            Equipment::Carom => BallSet::Carom,
+            Equipment::Pool | Equipment::Snooker => BallSet::Pool,
+        }
+    }
+}
+
+impl BallSet {
+    /// The look of one of its balls.
+    pub fn look(self, ball: BallId) -> BallLook {
+        match self {
+            BallSet::Pool => ball_look(ball),
+            BallSet::Carom => carom_look(ball),
+        }
+    }
+}
+
+/// The look of a carom ball: 1 is yellow, 2 red, the others are white.
+fn carom_look(ball: BallId) -> BallLook {
+    let colour = match ball.0 {
+        1 => [0.96, 0.74, 0.05],
+        2 => [0.72, 0.03, 0.05],
+        _ => IVORY,
+    };
+    BallLook { colour, is_striped: false, number: None }
 }
 
 /// Ivory, in sRGB.

@@ -12,7 +12,7 @@ use super::fouls::{self, Rule, committed};
 use super::game::Chosen;
 use super::shot::{Met, Shot};
 use super::state::State;
-use crate::events::{ByPlayer, Choice, Foul, Spots, TurnAfter, Verdict};
+use crate::events::{ByPlayer, Choice, Foul, TurnAfter, Verdict};
 use crate::ids::{BallId, PlayerId};
 use crate::units::Seconds;
 use smallvec::{SmallVec, smallvec};
@@ -131,11 +131,6 @@ pub fn choose(state: &State, choice: Choice) -> Chosen {
     let spot = with_cue_ball(state.cue_ball, &state.frozen_to_cue);
     let state = State { frozen_to_cue: SmallVec::new(), ..played };
     Chosen { spot, ..Chosen::goes_on(state) }
-}
-
-/// Where balls belong depends on who shoots.
-pub fn spots(state: &State) -> Spots {
-    Spots::Carom { cue_ball: state.cue_ball }
 }
 
 /// The cue ball touched both other balls.

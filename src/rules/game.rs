@@ -2,7 +2,7 @@
 
 use super::shot::Shot;
 use super::state::State;
-use crate::events::{BallInHand, Call, Calls, Choice, Spots, Topic, Verdict};
+use crate::events::{BallInHand, Call, Calls, Choice, Topic, Verdict};
 use crate::ids::BallId;
 use smallvec::SmallVec;
 
@@ -23,8 +23,6 @@ pub struct Game {
     pub after: fn(&State, &Shot, &Verdict) -> State,
     /// What follows from a choice; it is one of the options of the last verdict.
     pub choose: fn(&State, Choice) -> Chosen,
-    /// Where balls belong that return to the table before this shot.
-    pub spots: fn(&State) -> Spots,
     /// What may be called before a shot.
     pub calls: fn(&State) -> Calls,
     /// Facts that decide anything, besides those that decide in every game.
@@ -67,7 +65,6 @@ impl Game {
         may_be_first: |_, _| true,
         after: State::after,
         choose: |state, _| Chosen::goes_on(state.clone()),
-        spots: |_| Spots::Pool,
         calls: |_| Calls { ball: false, pocket: false, safety: false, push_out: false },
         facts: &[],
         balls: 15,

@@ -164,8 +164,8 @@ impl Referee {
 
     /// Balls return to where they belong for whoever shoots next.
     fn spot(&self, balls: SmallVec<[BallId; 4]>) -> Event {
-        let spots = (game(self.game).spots)(&self.state);
-        Event::Command(Command::SpotBalls(Spotting { balls, spots }))
+        let cue_ball = self.state.cue_ball;
+        Event::Command(Command::SpotBalls(Spotting { balls, cue_ball }))
     }
 
     fn rack(&mut self, balls: Racked) -> Event {

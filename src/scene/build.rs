@@ -1,11 +1,11 @@
 //! Makes the table and the balls that a scene names.
 
-use super::PlayerId;
+use super::{BallId, PlayerId};
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::mesh::{Face, Mesh, parse_obj};
-use crate::physics::Parameters;
-use crate::rack::Rack;
+use crate::physics::{Equipment, Parameters};
+use crate::rack::{Rack, Spots};
 use crate::table::Table;
 use glam::{DQuat, DVec3};
 
@@ -23,6 +23,9 @@ impl Scene {
             })?,
             None => Table { name: self.about.name.clone(), ..Table::default() },
         };
+        if self.equipment() == Equipment::Carom {
+            table.spots = Spots::Carom;
+        }
         table.planes.extend_from_slice(&self.planes);
         for section in &self.boxes {
             table.mesh.append(&box_mesh(section));
@@ -52,6 +55,11 @@ impl Scene {
             let rack = match section.rack {
                 RackKind::EightBall => Rack::eight_ball(seed),
                 RackKind::NineBall => Rack::nine_ball(seed),
+                // Each player has a ball of his own: who breaks decides which stands beside.
+                RackKind::Carom => Rack::carom(match self.rules.map(|rules| rules.first_player) {
+                    Some(PlayerId::TWO) => BallId(1),
+                    _ => BallId::CUE,
+                }),
             };
             balls = rack.place(table).map_err(|error| {
                 let (found, fix) = (section.rack.name(), "write [table] and preset = \"pool-9ft\"");
@@ -90,9 +98,14 @@ impl Scene {
         Ok(balls)
     }
 
+    /// What the scene's rack is played with; pool's without one.
+    pub fn equipment(&self) -> Equipment {
+        self.balls.as_ref().map_or(Equipment::Pool, |balls| balls.rack.equipment())
+    }
+
     /// The numbers of the contact laws, with those of the scene's own cue.
     pub fn parameters(&self) -> Parameters {
-        let mut parameters = Parameters::of(&self.physics);
+        let mut parameters = Parameters::with_equipment(&self.physics, self.equipment());
         if let Some(cue) = &self.cue {
             cue.apply(&mut parameters);
         }

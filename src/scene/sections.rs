@@ -292,8 +292,11 @@ fn box_section(section: &Section<'_>) -> Result<BoxSection, SceneError> {
 
 fn balls(section: &Section<'_>) -> Result<BallsSection, SceneError> {
     section.allow(&["rack"])?;
-    let racks: [(&[&str], RackKind); 2] =
-        [(&["eight-ball"], RackKind::EightBall), (&["nine-ball"], RackKind::NineBall)];
+    let racks: [(&[&str], RackKind); 3] = [
+        (&["eight-ball"], RackKind::EightBall),
+        (&["nine-ball"], RackKind::NineBall),
+        (&["carom"], RackKind::Carom),
+    ];
     match section.choice("rack", &racks)? {
         Some(rack) => Ok(BallsSection { rack, line: section.line() }),
         None => Err(section.missing(

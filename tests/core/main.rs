@@ -5,6 +5,8 @@
 
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+/// Carom: a table without pockets, a cue ball for each player.
+mod carom;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;

@@ -2,8 +2,8 @@
 
 use hapticbillard::ball::{BallPlace, BallState, Motion};
 use hapticbillard::events::{
-    BallInHand, Command, Event, Fact, Foul, Group, Groups, ShotKind, Source, Spots, Spotting,
-    Stamp, Stamped, Topic, Turn, TurnAfter, Verdict,
+    BallInHand, Command, Event, Fact, Foul, Group, Groups, ShotKind, Source, Spotting, Stamp,
+    Stamped, Topic, Turn, TurnAfter, Verdict,
 };
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId};
@@ -212,7 +212,7 @@ fn the_eight_is_spotted_between_verdict_and_turn() {
     );
     assert_eq!(said.len(), 3);
     let balls = std::iter::once(BallId::EIGHT).collect();
-    let spot = Event::Command(Command::SpotBalls(Spotting { balls, spots: Spots::Pool }));
+    let spot = Event::Command(Command::SpotBalls(Spotting { balls, cue_ball: BallId::CUE }));
     assert_eq!(said[1], spot);
     let next = turn(&said[2]);
     assert_eq!((next.player, next.shot, next.shot_number), (PlayerId::ONE, ShotKind::Normal, 2));

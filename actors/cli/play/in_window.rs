@@ -81,6 +81,7 @@ fn shown(
     let mut cast = stage.cast()?;
     let balls = stage.scene.build_balls(&stage.table)?;
     let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_set(stage.scene.equipment().into())
         .with_tip(stage.scene.parameters().tip_radius_m);
     let renderer = stage.scene.renderer;
     let stop = stop_at_interrupt();

@@ -6,10 +6,10 @@ use super::segment::Segment;
 use super::tip::Tip;
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, Spots, Spotting, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::spots::{self, Occupied};
+use crate::rack::Occupied;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -36,11 +36,7 @@ impl EventDriven {
             Command::PlaceBall { ball, position_m, zone } => {
                 self.place_ball(at, *ball, *position_m, *zone);
             }
-            Command::SpotBalls(Spotting { balls, spots }) => {
-                for ball in balls {
-                    self.spot_ball(at, *ball, *spots);
-                }
-            }
+            Command::SpotBalls(spotting) => self.spot_balls(at, spotting),
             // The rules' business.
             Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
         }
@@ -103,15 +99,19 @@ impl EventDriven {
         self.wake_neighbours(at, &[index]);
     }
 
-    /// Puts a ball on its spot, or where it belongs if there is no room.
-    fn spot_ball(&mut self, at: Seconds, ball: BallId, spots: Spots) {
-        let (Some(index), Some(bed)) = (self.index(ball), self.terrain.bed) else { return };
-        let lies = |(other, body): (usize, &Body)| {
-            let middle = body.segment.position_at(at).truncate();
-            (other != index && body.solid()).then_some((body.ball.id, middle, body.ball.radius_m))
-        };
-        let others: Vec<Occupied> = self.bodies.iter().enumerate().filter_map(lies).collect();
-        let radius_m = self.bodies[index].ball.radius_m;
-        self.put_down(at, index, spots::place(spots, &bed, ball, radius_m, &others));
+    /// Puts balls on their spots, or where they belong if there is no room.
+    fn spot_balls(&mut self, at: Seconds, Spotting { balls, cue_ball }: &Spotting) {
+        let (Some(bed), spots) = (self.terrain.bed, self.terrain.spots) else { return };
+        for ball in balls {
+            let Some(index) = self.index(*ball) else { continue };
+            let others = self.bodies.iter().filter(|body| body.solid() && body.ball.id != *ball);
+            let lies = |body: &Body| {
+                let middle = body.segment.position_at(at).truncate();
+                (body.ball.id, middle, body.ball.radius_m)
+            };
+            let occupied: Vec<Occupied> = others.map(lies).collect();
+            let radius_m = self.bodies[index].ball.radius_m;
+            self.put_down(at, index, spots.place(&bed, *ball, *cue_ball, &occupied, radius_m));
+        }
     }
 }

@@ -15,6 +15,7 @@ pub use plan::{Plan, Plans};
 
 use crate::mesh::Surface;
 use crate::physics::tolerance;
+use crate::rack::Spots;
 use crate::table::{Bed, Plane, Pocket, Table};
 use glam::{DVec3, IVec3};
 use plan::Lists;
@@ -180,6 +181,8 @@ pub struct Terrain {
     pub corners: Vec<Corner>,
     /// The playing area.
     pub bed: Option<Bed>,
+    /// Where balls return to.
+    pub spots: Spots,
     /// Pockets.
     pub pockets: Vec<Pocket>,
     /// Nothing is below this [m].
@@ -224,6 +227,7 @@ impl Terrain {
                 .map(|plane| Plane { normal: plane.normal.normalize_or(DVec3::Z), ..*plane })
                 .collect(),
             bed: table.bed,
+            spots: table.spots,
             pockets: table.pockets.clone(),
             ..Terrain::default()
         };
@@ -250,6 +254,7 @@ impl Terrain {
             sides: self.sides.clone(),
             faces: self.faces.clone(),
             bed: self.bed,
+            spots: self.spots,
             lowest_m: self.lowest_m,
             ..Terrain::default()
         };

@@ -5,10 +5,10 @@ use super::cue_motion::CueMotion;
 use super::{Due, FixedStep, weight_j};
 use crate::ball::{BallPlace, Motion};
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, Spots, Spotting, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::spots::{self, Occupied};
+use crate::rack::Occupied;
 use crate::units::Seconds;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -41,9 +41,7 @@ impl FixedStep {
                 Command::PlaceBall { ball, position_m, zone } => {
                     self.place_ball(ball, position_m, zone);
                 }
-                Command::SpotBalls(Spotting { balls, spots }) => {
-                    balls.iter().for_each(|ball| self.spot_ball(*ball, spots));
-                }
+                Command::SpotBalls(spotting) => self.spot_balls(&spotting),
                 // The rules' business.
                 Command::Call(_) | Command::Choose(_) | Command::Rack(_) | Command::Undo => {}
             }
@@ -112,15 +110,16 @@ impl FixedStep {
         self.clear_touched_rails(index);
     }
 
-    /// Puts a ball on its spot, or where it belongs if there is no room.
-    fn spot_ball(&mut self, ball: BallId, spots: Spots) {
-        let (Some(index), Some(bed)) = (self.index(ball), self.ground.bed) else { return };
-        let lies = |(other, body): (usize, &Body)| {
-            let middle = body.position.truncate();
-            (other != index && body.solid()).then_some((body.ball.id, middle, body.ball.radius_m))
-        };
-        let others: Vec<Occupied> = self.bodies.iter().enumerate().filter_map(lies).collect();
-        let radius_m = self.bodies[index].ball.radius_m;
-        self.put_down(index, spots::place(spots, &bed, ball, radius_m, &others));
+    /// Puts balls on their spots, or where they belong if there is no room.
+    fn spot_balls(&mut self, Spotting { balls, cue_ball }: &Spotting) {
+        let (Some(bed), spots) = (self.ground.bed, self.ground.spots) else { return };
+        for ball in balls {
+            let Some(index) = self.index(*ball) else { continue };
+            let others = self.bodies.iter().filter(|body| body.solid() && body.ball.id != *ball);
+            let lies = |body: &Body| (body.ball.id, body.position.truncate(), body.ball.radius_m);
+            let occupied: Vec<Occupied> = others.map(lies).collect();
+            let radius_m = self.bodies[index].ball.radius_m;
+            self.put_down(index, spots.place(&bed, *ball, *cue_ball, &occupied, radius_m));
+        }
     }
 }

@@ -4,6 +4,7 @@ use super::narrow::{Triangle, triangle_meets_box};
 use super::spatial_hash::{Bounds, Seen, SpatialHash};
 use crate::mesh::{Mesh, Surface};
 use crate::physics::tolerance;
+use crate::rack::Spots;
 use crate::table::{Bed, Plane, Pocket, Table};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -17,6 +18,8 @@ pub struct Ground {
     pub faces: Vec<Triangle>,
     /// The playing area.
     pub bed: Option<Bed>,
+    /// Where balls return to.
+    pub spots: Spots,
     /// Pockets.
     pub pockets: Vec<Pocket>,
     /// Nothing is below this [m].
@@ -44,6 +47,7 @@ impl Ground {
                 .map(|plane| Plane { normal: plane.normal.normalize_or(DVec3::Z), ..*plane })
                 .collect(),
             bed: table.bed,
+            spots: table.spots,
             pockets: table.pockets.clone(),
             lowest_m: of_faces.chain(of_planes).fold(0.0, f64::min),
             faces,

@@ -13,7 +13,6 @@ pub const GAME: Game = Game {
     may_be_first: carom::may_be_first,
     after: carom::after,
     choose: carom::choose,
-    spots: carom::spots,
     facts: &[Topic::BallsCollided, Topic::BallsFrozen],
     balls: 2,
     names: carom::NAMES,

@@ -1,10 +1,10 @@
 //! What no ball touches: castings, diamonds, marks, apron, legs and the floor.
 
 use super::{DisplayPart, DisplayTriangle, Material, smooth};
-use crate::table::Bed;
 use crate::table::parameters::{PocketParameters, TableParameters};
 use crate::table::plan::{Detail, corner_centre, direction, rim_radius, side_centre};
 use crate::table::quarter::outline;
+use crate::table::{Bed, CAROM_START_M};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use glam::{DVec2, DVec3};
 
@@ -58,8 +58,9 @@ fn mirrored(quarter: &[DisplayTriangle]) -> Vec<DisplayTriangle> {
 /// Metal trims round the back of the pockets: a plate on the rail with a collar into the hole.
 pub(super) fn castings(table: &TableParameters) -> Vec<DisplayTriangle> {
     let mut triangles = Vec::new();
-    casting(&mut triangles, table, &table.corner, corner_centre(table), FRAC_PI_4, -1.0);
-    casting(&mut triangles, table, &table.side, side_centre(table), FRAC_PI_2, 0.0);
+    let Some([corner, side]) = table.pockets() else { return triangles };
+    casting(&mut triangles, table, corner, corner_centre(table, corner), FRAC_PI_4, -1.0);
+    casting(&mut triangles, table, side, side_centre(table, side), FRAC_PI_2, 0.0);
     mirrored(&triangles)
 }
 
@@ -128,7 +129,7 @@ fn casting(
     }
 }
 
-/// The eighteen sights: six on each long rail, three on each short one.
+/// The sights.
 fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     let mut triangles = Vec::new();
     let z = table.rail_height_m + MARK_LIFT_M;
@@ -143,12 +144,18 @@ fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     triangles
 }
 
-/// Head string, head spot and foot spot.
+/// Head string, head spot and foot spot; on a carom table its five spots and no line.
 fn marks(table: &TableParameters) -> Vec<DisplayTriangle> {
     let bed = Bed { length_m: table.length_m, width_m: table.width_m };
-    let (half_line, spot_radius) = (0.0008, 0.006);
+    let half_line = 0.0008;
+    let spot_radius = if table.pockets().is_some() { 0.006 } else { 0.003 };
     let mut triangles = Vec::new();
     let (x, y) = (bed.head_string_x(), 0.5 * table.width_m);
+    let mut spots = vec![bed.foot_spot(), bed.head_spot()];
+    if table.pockets().is_none() {
+        let beside = DVec2::new(0.0, CAROM_START_M);
+        spots.extend([DVec2::ZERO, bed.head_spot() + beside, bed.head_spot() - beside]);
+    }
     let end = |x: f64| {
         [
             DVec3::new(x, -y, MARK_LIFT_M),
@@ -156,8 +163,10 @@ fn marks(table: &TableParameters) -> Vec<DisplayTriangle> {
             DVec3::new(x, y, MARK_LIFT_M),
         ]
     };
-    strip(&mut triangles, &end(x + half_line), &end(x - half_line));
-    for spot in [bed.foot_spot(), bed.head_spot()] {
+    if table.pockets().is_some() {
+        strip(&mut triangles, &end(x + half_line), &end(x - half_line));
+    }
+    for spot in spots {
         // The spots lie on the line.
         let lift = 1.5 * MARK_LIFT_M;
         fan(&mut triangles, spot.extend(lift), &circle(spot, spot_radius, lift));
