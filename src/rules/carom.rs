@@ -26,6 +26,8 @@ const WHITE: BallId = BallId(0);
 const YELLOW: BallId = BallId(1);
 /// The red.
 const RED: BallId = BallId(2);
+/// All three.
+const BALLS: [BallId; 3] = [WHITE, YELLOW, RED];
 
 /// A ball that lay against the cue ball was played at if they meet so soon after the stroke [s]: a
 /// cue ball that has left it needs longer to return.
@@ -83,7 +85,7 @@ pub fn judge(game: &Carom, state: &State, shot: &Shot) -> Verdict {
         ..Verdict::default()
     };
     if has_scored && state.score.of(own).saturating_add(points) >= game.target {
-        return Verdict { turn: TurnAfter::End, winner: Some(own), spot: lost, ..verdict };
+        return Verdict { turn: TurnAfter::End, winner: Some(own), ..verdict };
     }
     let (turn, next) =
         if has_scored { (TurnAfter::Continue, own) } else { (TurnAfter::Pass, other) };
@@ -95,7 +97,7 @@ pub fn judge(game: &Carom, state: &State, shot: &Shot) -> Verdict {
 /// touch spotted. Balls that are gone return first, so nothing is offered with them.
 fn offer_to_spot_frozen(state: &State, shot: &Shot, verdict: Verdict) -> Verdict {
     let cue_ball = next_cue_ball(state, &verdict);
-    let frozen = shot.frozen_to(cue_ball);
+    let frozen = frozen_to(cue_ball, shot);
     if frozen.is_empty() || !verdict.spot.is_empty() {
         return verdict;
     }
@@ -115,7 +117,7 @@ pub fn after(state: &State, shot: &Shot, verdict: &Verdict) -> State {
         on_table: object_balls(cue_ball),
         frozen_to_cue: match verdict.options.is_empty() {
             true => SmallVec::new(),
-            false => shot.frozen_to(cue_ball),
+            false => frozen_to(cue_ball, shot),
         },
         ..state.after(shot, verdict)
     }
@@ -139,8 +141,7 @@ pub fn touched_both(shot: &Shot) -> bool {
 }
 
 /// How often the cue ball was driven to a cushion before it met the second ball; none if it did not
-/// meet two. The same cushion counts again. Of what happened at the same time no rule can tell
-/// which was first: then the cushion was.
+/// meet two. The same cushion counts again; of what happened at the same time, cushions come first.
 pub fn rails_before_second_ball(shot: &Shot) -> Option<usize> {
     let ball_of = |met: &(Seconds, Met)| match met.1 {
         Met::Ball(ball) => Some(ball),
@@ -148,10 +149,7 @@ pub fn rails_before_second_ball(shot: &Shot) -> Option<usize> {
     };
     let first = shot.cue_met.iter().find_map(ball_of)?;
     let second = shot.cue_met.iter().position(|met| ball_of(met).is_some_and(|b| b != first))?;
-    let time_s = shot.cue_met[second].0;
-    let at_once = shot.cue_met[second..].iter().take_while(|met| met.0 == time_s).count();
-    let until = &shot.cue_met[..second + at_once];
-    Some(until.iter().filter(|met| ball_of(met).is_none()).count())
+    Some(shot.cue_met[..second].iter().filter(|met| ball_of(met).is_none()).count())
 }
 
 /// Foul: on the break the cue ball met another ball than the red first.
@@ -181,12 +179,16 @@ fn push(state: &State, shot: &Shot) -> bool {
 /// Balls that left the table, or went down where a table has pockets, in ascending order. They
 /// return to their spots.
 fn lost(shot: &Shot) -> SmallVec<[BallId; 4]> {
-    let cue_ball = shot.cue_ball_is_gone().then_some(shot.cue_ball);
-    let mut balls: SmallVec<[BallId; 4]> =
-        shot.off.iter().copied().chain(shot.pocketed_balls()).chain(cue_ball).collect();
-    balls.sort_unstable();
-    balls.dedup();
-    balls
+    let is_lost = |ball: &BallId| match *ball == shot.cue_ball {
+        true => shot.cue_ball_is_gone(),
+        false => shot.off.contains(ball) || shot.has_pocketed(*ball),
+    };
+    BALLS.into_iter().filter(is_lost).collect()
+}
+
+/// The balls that lie against this one at the end.
+fn frozen_to(ball: BallId, shot: &Shot) -> SmallVec<[BallId; 2]> {
+    shot.frozen_to(ball).into_iter().filter(|other| BALLS.contains(other)).collect()
 }
 
 /// The ball that is struck next.
@@ -202,7 +204,7 @@ fn other_cue_ball(cue_ball: BallId) -> BallId {
 }
 
 fn object_balls(cue_ball: BallId) -> SmallVec<[BallId; 16]> {
-    [WHITE, YELLOW, RED].into_iter().filter(|ball| *ball != cue_ball).collect()
+    BALLS.into_iter().filter(|ball| *ball != cue_ball).collect()
 }
 
 fn with_cue_ball(cue_ball: BallId, others: &[BallId]) -> SmallVec<[BallId; 4]> {

@@ -35,7 +35,7 @@ pub fn no_contact(_: &State, shot: &Shot) -> bool {
 /// Foul: after the first contact no ball was pocketed, driven off the table or driven to a rail. A
 /// ball that already touched a rail is not driven to it. Without a contact that is the foul.
 pub fn no_rail(_: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty() && shot.rails_after_contact == 0 && shot.gone_after_contact == 0
+    !shot.first_contacts.is_empty() && !shot.is_driven_after_contact()
 }
 
 /// Foul: an object ball is off the table.
@@ -67,7 +67,7 @@ pub fn bad_placement(state: &State, shot: &Shot) -> bool {
 /// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
 /// behind it too, and the cue ball had not crossed it before.
 pub fn kitchen(state: &State, shot: &Shot) -> bool {
-    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first
+    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first()
 }
 
 /// Foul: a ball still moved, or spun, when the stroke began.

@@ -20,12 +20,12 @@ pub struct Pocketed {
 }
 
 /// What the cue ball met.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Met {
-    /// A ball.
-    Ball(BallId),
     /// A rail that it did not touch before.
     Rail(Rail),
+    /// A ball.
+    Ball(BallId),
 }
 
 /// What happened in one shot, from the cue ball's placing to rest. Start with the default, or with
@@ -58,11 +58,9 @@ pub struct Shot {
     pub contacts: SmallVec<[(BallId, BallId); 16]>,
     /// Balls driven to a rail, in time order: cushion contacts with `onset` only.
     pub rails: SmallVec<[(BallId, Rail); 16]>,
-    /// The same, but only from the first contact of the cue ball on.
-    pub rails_after_contact: u32,
-    /// Balls that went down or left the table from the first contact of the cue ball on.
-    pub gone_after_contact: u32,
-    /// What the cue ball met, and when [s], in time order.
+    /// When a ball was last driven to a rail, went down or left the table [s].
+    pub last_driven_s: Option<Seconds>,
+    /// What the cue ball met and when [s], in time order; at the same time, rails first.
     pub cue_met: SmallVec<[(Seconds, Met); 8]>,
     /// Object balls that went down, in time order; at the same time, the lower number first.
     pub pocketed: SmallVec<[Pocketed; 4]>,
@@ -74,8 +72,8 @@ pub struct Shot {
     pub cue_off: bool,
     /// Balls that something touched which may not, and what touched them.
     pub touched: SmallVec<[(BallId, TouchedBy); 2]>,
-    /// The cue ball crossed the head string towards the foot before it met a ball.
-    pub crossed_head_first: bool,
+    /// When the cue ball first crossed the head string towards the foot [s].
+    pub crossed_head_s: Option<Seconds>,
     /// Balls that lie against each other at the end.
     pub frozen: SmallVec<[(BallId, BallId); 2]>,
     /// Everything is at rest: the shot can be judged.
@@ -112,17 +110,19 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
         FactKind::CushionHit { ball, rail, onset, .. } => {
             if onset {
                 shot.rails.push((ball, rail));
-                shot.rails_after_contact += u32::from(shot.first_contact_s.is_some());
+                shot.drive(fact.time_s);
                 if ball == cue_ball {
-                    shot.cue_met.push((fact.time_s, Met::Rail(rail)));
+                    shot.meet(fact.time_s, Met::Rail(rail));
                 }
             }
         }
         FactKind::HeadStringCrossed { ball } => {
-            shot.crossed_head_first |= ball == cue_ball && shot.first_contact_s.is_none();
+            if ball == cue_ball {
+                shot.crossed_head_s.get_or_insert(fact.time_s);
+            }
         }
         FactKind::BallPocketed { ball, pocket, .. } => {
-            shot.gone_after_contact += u32::from(shot.first_contact_s.is_some());
+            shot.drive(fact.time_s);
             if ball == cue_ball {
                 shot.cue_pocketed = true;
             } else {
@@ -130,7 +130,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
             }
         }
         FactKind::BallOffTable { ball } => {
-            shot.gone_after_contact += u32::from(shot.first_contact_s.is_some());
+            shot.drive(fact.time_s);
             if ball == cue_ball {
                 shot.cue_off = true;
             } else if let Err(place) = shot.off.binary_search(&ball) {
@@ -147,7 +147,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
 }
 
 fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_kitchen: bool) {
-    shot.cue_met.push((time_s, Met::Ball(other)));
+    shot.meet(time_s, Met::Ball(other));
     let first_s = *shot.first_contact_s.get_or_insert(time_s);
     if first_s == time_s {
         shot.first_contacts.push(other);
@@ -202,6 +202,31 @@ impl Shot {
         self.pocketed.iter().find(|pocketed| pocketed.ball == ball).map(|pocketed| pocketed.pocket)
     }
 
+    /// Whether a ball was driven to a rail, went down or left the table when or after the cue ball
+    /// first met a ball.
+    pub fn is_driven_after_contact(&self) -> bool {
+        matches!((self.first_contact_s, self.last_driven_s), (Some(met), Some(last)) if last >= met)
+    }
+
+    /// Whether the cue ball crossed the head string before it met a ball, or when it did.
+    pub fn crossed_head_first(&self) -> bool {
+        match (self.crossed_head_s, self.first_contact_s) {
+            (Some(crossed), Some(met)) => crossed <= met,
+            (crossed, _) => crossed.is_some(),
+        }
+    }
+
+    fn drive(&mut self, time_s: Seconds) {
+        self.last_driven_s = Some(self.last_driven_s.map_or(time_s, |last| last.max(time_s)));
+    }
+
+    fn meet(&mut self, time_s: Seconds, what: Met) {
+        let place = self
+            .cue_met
+            .partition_point(|(time, met)| time.total_cmp(&time_s).then(met.cmp(&what)).is_le());
+        self.cue_met.insert(place, (time_s, what));
+    }
+
     /// Whether the cue ball is gone.
     pub fn cue_ball_is_gone(&self) -> bool {
         self.cue_pocketed || self.cue_off
@@ -227,7 +252,6 @@ impl Shot {
             self.first_in_kitchen,
             self.cue_pocketed,
             self.cue_off,
-            self.crossed_head_first,
             self.settled,
             self.snookered,
         ];
@@ -240,13 +264,13 @@ impl Shot {
         hash_list(hash, self.first_contacts.iter().map(|ball| ball.0.into()));
         hash_list(hash, self.contacts.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
         hash_list(hash, self.rails.iter().map(|(a, rail)| u64::from(a.0) << 16 | *rail as u64));
-        hash.u64(self.rails_after_contact.into());
-        hash.u64(self.gone_after_contact.into());
+        hash.f64(self.last_driven_s.unwrap_or(-1.0));
+        hash.f64(self.crossed_head_s.unwrap_or(-1.0));
         hash_list(
             hash,
             self.cue_met.iter().map(|(_, met)| match met {
-                Met::Ball(ball) => u64::from(ball.0),
                 Met::Rail(rail) => 1 << 16 | *rail as u64,
+                Met::Ball(ball) => u64::from(ball.0),
             }),
         );
         self.cue_met.iter().for_each(|(time_s, _)| hash.f64(*time_s));

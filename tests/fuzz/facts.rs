@@ -3,8 +3,7 @@
 use hapticbillard::events::{FactKind, TouchedBy, Zone};
 use hapticbillard::ids::{BallId, PlayerId, PocketId, Rail};
 use hapticbillard::rules::{Referee, legal_first};
-use rand::RngExt;
-use rand_pcg::Pcg64Mcg;
+use rand::{Rng, RngExt};
 
 /// How often each kind of fact comes in one game; some never do.
 pub struct Swarm {
@@ -14,11 +13,17 @@ pub struct Swarm {
     /// Chance that a fact happens at the same time as the one before.
     #[allow(dead_code, reason = "where facts come one by one there are no ties")]
     pub tie: f64,
+    /// Chance that a player calls or chooses instead.
+    #[allow(dead_code, reason = "where players say nothing there are no commands")]
+    pub commands: f64,
+    /// Chance that the next event is that of a good player.
+    #[allow(dead_code, reason = "where facts come one by one nobody plays")]
+    pub skill: f64,
 }
 
 impl Swarm {
     /// A choice of kinds for one game.
-    pub fn new(rng: &mut Pcg64Mcg) -> Self {
+    pub fn new(rng: &mut impl Rng) -> Self {
         let mut weights = std::array::from_fn(|_| match rng.random_range(0..3) {
             0 => 0,
             1 => 1,
@@ -28,11 +33,14 @@ impl Swarm {
         weights[1] = weights[1].max(2);
         weights[8] = weights[8].max(2);
         let is_possible = rng.random_bool(0.5);
-        Swarm { weights, is_possible, tie: [0.0, 0.3, 0.9][rng.random_range(0..3)] }
+        let tie = [0.0, 0.3, 0.9][rng.random_range(0..3)];
+        let commands = [0.0, 0.05, 0.2][rng.random_range(0..3)];
+        let skill = [0.0, 0.0, 0.95, 1.0][rng.random_range(0..4)];
+        Swarm { weights, is_possible, tie, commands, skill }
     }
 
     /// What happens next.
-    pub fn kind(&self, rng: &mut Pcg64Mcg, referee: &Referee) -> FactKind {
+    pub fn kind(&self, rng: &mut impl Rng, referee: &Referee) -> FactKind {
         let total = self.weights.iter().sum::<u32>();
         let mut pick = rng.random_range(0..total);
         let kind = self.weights.iter().position(|weight| {
@@ -46,17 +54,18 @@ impl Swarm {
             balls if self.is_possible && !balls.is_empty() => {
                 balls[rng.random_range(0..balls.len())]
             }
-            _ => BallId(rng.random_range(0..18)),
+            _ => BallId(rng.random_range(0..25)),
         };
-        let cue_or_ball = if rng.random_bool(0.15) { BallId::CUE } else { ball };
+        let cue_ball = referee.state().cue_ball;
+        let cue_or_ball = if rng.random_bool(0.15) { cue_ball } else { ball };
         match kind.unwrap_or(8) {
             0 => FactKind::BallPlaced {
-                ball: if rng.random_bool(0.9) { BallId::CUE } else { ball },
+                ball: if rng.random_bool(0.9) { cue_ball } else { ball },
                 zone: [Zone::Kitchen, Zone::Anywhere, Zone::D][rng.random_range(0..3)],
                 ok: rng.random_bool(0.7),
             },
             1 => FactKind::CueBallStruck {
-                ball: if rng.random_bool(0.95) { BallId::CUE } else { ball },
+                ball: if rng.random_bool(0.95) { cue_ball } else { ball },
                 push: rng.random_bool(0.1),
                 moving: rng.random_bool(0.1),
                 player: rng.random_bool(0.1).then_some(PlayerId::TWO),
@@ -64,7 +73,7 @@ impl Swarm {
                 normal_speed_m_s: 0.0,
             },
             2 | 3 => FactKind::BallsCollided {
-                a: if rng.random_bool(0.7) { BallId::CUE } else { cue_or_ball },
+                a: if rng.random_bool(0.7) { cue_ball } else { cue_or_ball },
                 b: ball,
                 in_kitchen: rng.random_bool(0.1),
                 position_m: Default::default(),
@@ -83,11 +92,12 @@ impl Swarm {
                 speed_m_s: 0.0,
             },
             6 => FactKind::BallOffTable { ball: cue_or_ball },
-            7 => match rng.random_bool(0.5) {
-                true => FactKind::HeadStringCrossed { ball: cue_or_ball },
-                false => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
+            7 => match rng.random_range(0..3) {
+                0 => FactKind::HeadStringCrossed { ball: cue_or_ball },
+                1 => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
+                _ => FactKind::BallsFrozen { a: ball, b: BallId(rng.random_range(0..3)) },
             },
-            _ => FactKind::Settled { snookered: false },
+            _ => FactKind::Settled { snookered: rng.random_bool(0.3) },
         }
     }
 }
@@ -97,14 +107,14 @@ impl Swarm {
 pub fn made_possible(
     kind: FactKind,
     is_shooting: bool,
-    rng: &mut Pcg64Mcg,
+    rng: &mut impl Rng,
     referee: &Referee,
 ) -> FactKind {
     let legal = legal_first(referee.game(), referee.state());
     match kind {
         FactKind::BallPlaced { .. } if !is_shooting => kind,
         _ if !is_shooting => FactKind::CueBallStruck {
-            ball: BallId::CUE,
+            ball: referee.state().cue_ball,
             push: false,
             moving: false,
             player: None,
@@ -113,7 +123,7 @@ pub fn made_possible(
         },
         FactKind::CueBallStruck { .. } if !legal.is_empty() && rng.random_bool(0.95) => {
             FactKind::BallsCollided {
-                a: BallId::CUE,
+                a: referee.state().cue_ball,
                 b: legal[rng.random_range(0..legal.len())],
                 in_kitchen: false,
                 position_m: Default::default(),

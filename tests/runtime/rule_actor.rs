@@ -5,11 +5,12 @@
 
 use crate::facts::{Swarm, made_possible};
 use hapticbillard::events::{
-    Command, Event, Fact, FactKind, MenuAction, PlayerReport, PlayerState, Source, Stamp, Stamped,
+    Call, CallKind, Choice, Command, Event, Fact, FactKind, MenuAction, PlayerReport, PlayerState,
+    Source, Stamp, Stamped,
 };
 use hapticbillard::hash::Digest;
-use hapticbillard::ids::{BallId, PlayerId};
-use hapticbillard::rules::{GameKind, Phase, Referee};
+use hapticbillard::ids::{BallId, PlayerId, PocketId};
+use hapticbillard::rules::{GameKind, Phase, Referee, game as game_of};
 use hapticbillard::tick::{Delivered, Outcome};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::participant::{Answer, Ask, Mail, collect, door};
@@ -17,6 +18,7 @@ use hapticbillard_actors::rules::Rules;
 use kameo::actor::{ActorRef, Spawn};
 use kameo::error::SendError;
 use kameo::mailbox;
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -33,9 +35,9 @@ struct Pair {
 }
 
 impl Pair {
-    fn new(game: GameKind) -> Self {
-        let mut core = Referee::new(game);
-        core.begin((1..=15).map(BallId));
+    fn new(kind: GameKind) -> Self {
+        let mut core = Referee::new(kind);
+        core.begin((0..=game_of(kind).balls).map(BallId));
         let actor = Rules::spawn_with_mailbox(Rules(core.clone()), mailbox::bounded(2));
         Pair { core, ask: door(actor.clone()), actor, sequence: 0 }
     }
@@ -44,10 +46,20 @@ impl Pair {
     fn mail(&mut self, rng: &mut Pcg64Mcg, swarm: &Swarm, tick: u64) -> Mail {
         let mut ahead = self.core.clone();
         let count = [0, 1, 1, 2, 5][rng.random_range(0..5)];
-        let events: Vec<Stamped> = (0..count)
+        let mut events: Vec<Stamped> = (0..count)
             .map(|_| {
+                let mut source = Source::Physics;
                 let event = match rng.random_range(0..12) {
-                    0 => Event::Command(Command::LiftCue),
+                    0 => {
+                        source = if rng.random_bool(0.8) {
+                            Source::Input
+                        } else {
+                            Source::Ai(PlayerId::TWO)
+                        };
+                        let command = command(rng, &ahead);
+                        ahead.obey(source, &command);
+                        Event::Command(command)
+                    }
                     1 => Event::Menu(MenuAction::Pause),
                     2 => {
                         let (player, state) = (PlayerId::TWO, PlayerState::Aiming);
@@ -66,11 +78,14 @@ impl Pair {
                     }
                 };
                 self.sequence += 1;
-                let source = Source::Physics;
                 let stamp = Stamp { tick: Tick(tick), source, sequence: self.sequence };
                 Stamped { stamp, event }
             })
             .collect();
+        // A manager that is out of order is no reason to fall.
+        if rng.random_bool(0.1) {
+            events.shuffle(rng);
+        }
         Mail(Delivered { tick: Tick(tick), events: events.into(), table: Default::default() })
     }
 
@@ -79,6 +94,23 @@ impl Pair {
         let from_core = collect(&mut self.core, &mail);
         let from_actor = (self.ask)(mail).answer().await.unwrap();
         [from_core, from_actor].map(|Answer { outcome, digest }| (outcome, digest))
+    }
+}
+
+/// What a player may say: an option, a call, or nothing that concerns the rules.
+fn command(rng: &mut Pcg64Mcg, referee: &Referee) -> Command {
+    let state = referee.state();
+    match (state.options.as_slice(), rng.random_range(0..6)) {
+        (options @ [_, ..], 0..4) => Command::Choose(options[rng.random_range(0..options.len())]),
+        (_, 0) => Command::Choose(Choice::Rebreak),
+        (_, 1) => Command::Call(Call::Kind(CallKind::Safety)),
+        (_, 2) => Command::Call(Call::Kind(CallKind::PushOut)),
+        (_, 3) => Command::LiftCue,
+        _ => {
+            let ball = state.on_table.first().copied().unwrap_or_default();
+            let pocket = PocketId::ALL[rng.random_range(0..6)];
+            Command::Call(Call::Ball { ball, pocket: Some(pocket) })
+        }
     }
 }
 
@@ -138,4 +170,48 @@ async fn a_full_mailbox_refuses_and_the_actor_lives_on() {
     let [core, actor] = pair.deliver(settled()).await;
     assert_eq!(actor, core);
     assert!(pair.actor.is_alive());
+}
+
+/// Stopped in the middle of its mail, the actor answers what it has taken as its core does, and
+/// refuses the rest; nobody waits for ever.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn stopped_in_the_middle_it_answers_what_it_has_taken_and_refuses_the_rest() {
+    let first = number("FUZZ_SEED", 1);
+    let (mut answered, mut refused) = (0, 0);
+    for seed in first..first + 200 {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let swarm = Swarm::new(&mut rng);
+        let kind = GameKind::ALL[rng.random_range(0..GameKind::ALL.len())];
+        let mut pair = Pair::new(kind);
+        let actor = pair.actor.clone();
+        let stops_at = rng.random_range(1..40);
+        let mut alive = true;
+        for tick in 1..=40 {
+            if tick == stops_at {
+                match rng.random_bool(0.5) {
+                    true => actor.kill(),
+                    false => drop(actor.stop_gracefully().await),
+                }
+            }
+            let mail = pair.mail(&mut rng, &swarm, tick);
+            let expected = collect(&mut pair.core, &mail);
+            match (pair.ask)(mail).answer().await {
+                Ok(answer) => {
+                    assert!(alive, "FUZZ_SEED={seed}: it answered after it had refused");
+                    let pairs = (answer.outcome, answer.digest);
+                    assert_eq!(pairs, (expected.outcome, expected.digest), "FUZZ_SEED={seed}");
+                    answered += 1;
+                }
+                Err(_) => {
+                    assert!(tick >= stops_at, "FUZZ_SEED={seed}: it refused before its end");
+                    alive = false;
+                    refused += 1;
+                }
+            }
+        }
+        actor.wait_for_shutdown().await;
+        let late = (pair.ask)(pair.mail(&mut rng, &swarm, 41)).answer().await;
+        assert!(late.is_err(), "FUZZ_SEED={seed}: it was stopped and lives on");
+    }
+    assert!(answered > 1000 && refused > 1000, "{answered} answered, {refused} refused");
 }
