@@ -225,7 +225,7 @@ fn pocketed(
 }
 
 /// Sweeps the profile from one end to the other; returns the points of each line.
-pub(super) fn cushion(
+fn cushion(
     body: &mut Body,
     part: Part,
     start: &[DVec3],
@@ -234,16 +234,22 @@ pub(super) fn cushion(
 ) -> Vec<Vec<DVec3>> {
     let count = count(start[0], end[0], grid_m);
     let lines: Vec<Vec<DVec3>> = start.iter().zip(end).map(|(a, b)| steps(*a, *b, count)).collect();
+    sweep(body, part, &lines);
+    lines
+}
+
+/// Joins the lines of a cushion, each of equally many points, to its surface.
+pub(super) fn sweep(body: &mut Body, part: Part, lines: &[Vec<DVec3>]) {
+    let [first, .., last] = lines else { return };
+    let (foot, wood, end) = (first[0], last[0], first[first.len() - 1]);
     // A line inside the rubber, seen from which the whole profile faces outward.
-    let wood = start[start.len() - 1];
-    let core_point = (start[0] + wood) * 0.5;
+    let core_point = (foot + wood) * 0.5;
     let core = DVec3::new(core_point.x, core_point.y, 0.9 * wood.z);
-    let along = (end[0] - start[0]) * DVec3::new(1.0, 1.0, 0.0);
+    let along = (end - foot) * DVec3::new(1.0, 1.0, 0.0);
     let axis = if along.x.abs() > along.y.abs() { DVec3::X } else { DVec3::Y };
     for pair in lines.windows(2) {
         body.strip(|_| part, &pair[0], &pair[1], |p| (p - core).reject_from_normalized(axis));
     }
-    lines
 }
 
 /// The facing of a jaw: flat, between the end of the cushion and the wall of the pocket.
