@@ -97,9 +97,9 @@ impl Script {
             let azimuth = f64::from(k * 97 % 720) * std::f64::consts::TAU / 720.0;
             stroke(&self.table, world, turn.cue_ball, azimuth, speed)
         });
+        let start = simulation(&self.scene, &self.table, world);
         let scores = |stroke: &Stroke| {
-            let world = simulation(&self.scene, &self.table, world);
-            let verdict = verdict_of(self.game, turn, &facts_of(world, stroke));
+            let verdict = verdict_of(self.game, turn, &facts_of(start.clone(), stroke));
             let has_scored = verdict.turn != TurnAfter::Pass;
             verdict.legal && has_scored == wanted && verdict.options.is_empty()
         };
