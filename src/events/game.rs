@@ -49,7 +49,7 @@ pub struct Spotting {
 /// Which balls are racked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Racking {
-    /// Counts the racks of a game from 0, which the game began with: each stands a little otherwise.
+    /// Counts the racks of a game from 0, which it began with: each stands a little otherwise.
     pub serial: u32,
     /// All of them, or those that fell.
     pub balls: Racked,

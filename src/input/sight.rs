@@ -73,8 +73,8 @@ pub(super) fn elevation_needed(
     elevation_rad.min(ELEVATION_MAX_RAD)
 }
 
-/// Where the cue ball's middle is when it meets the first of the balls `others` or cushion on its straight way
-/// [m], and which way the ball that is met leaves; zero if it meets a cushion.
+/// Where the cue ball's middle is when it meets the first of `others`, or a cushion, on its
+/// straight way [m], and which way the ball that is met leaves; zero if it meets a cushion.
 pub(super) fn ghost(
     others: impl Iterator<Item = DVec3>,
     bed: Option<&Bed>,

@@ -305,7 +305,7 @@ fn grid_line(a: DVec3, b: DVec3, step: f64) -> Vec<DVec3> {
     points
 }
 
-/// Rails, outer side and underside. `inner` is the inner edge of the rails' top, from x = 0 to y = 0.
+/// Rails, outer side and underside. `inner` is the inner edge of the rails, from x = 0 to y = 0.
 pub(super) fn frame(
     body: &mut Body,
     table: &TableParameters,

@@ -208,8 +208,8 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "[table]\npreset = \"snooker-12ft\"\n",
-        "5: table.preset = \"snooker-12ft\": this build knows only \"pool-9ft\"; write for \
-         example preset = \"pool-9ft\"",
+        "5: table.preset = \"snooker-12ft\": this build knows \"pool-9ft\", \
+         \"carom-10ft\"; write for example preset = \"pool-9ft\"",
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\nlength_m = 3\n",

@@ -26,7 +26,7 @@ pub const GAME: Game = Game {
 /// than nothing.
 const FREE_CAROM: Carom = Carom { scores: carom::touched_both, lost_ball: 1, target: 30 };
 
-/// Judges a finished shot. One point if the cue ball touched both other balls, whatever else it met.
+/// Judges a finished shot. One point: the cue ball touched both other balls, whatever else it met.
 pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
     carom::judge(&FREE_CAROM, state, shot)
 }
