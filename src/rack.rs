@@ -64,7 +64,7 @@ impl Rack {
         Rack { layout: Layout::NineBall { seed } }
     }
 
-    /// The white (0), the yellow (1) and the red (2) of carom, ready for the break of whoever strikes
+    /// The white (0), the yellow (1) and the red (2) of carom, ready for the break of who strikes
     /// `cue_ball`: the red on the foot spot, the opponent's ball on the head spot, the own one
     /// beside it (rules of the UMB).
     pub fn carom(cue_ball: BallId) -> Rack {

@@ -357,8 +357,8 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\n[balls]\nrack = \"snooker\"\n",
-        "7: balls.rack = \"snooker\": this build knows \"eight-ball\", \"nine-ball\"; write for \
-         example rack = \"eight-ball\"",
+        "7: balls.rack = \"snooker\": this build knows \"eight-ball\", \"nine-ball\", \"carom\"; \
+         write for example rack = \"eight-ball\"",
     );
     after_head(
         "[rules]\ngame = \"wpa-nine-ball\"\n",
