@@ -19,6 +19,10 @@ macro_rules! for_all_games {
             Straight "straight" "straight" straight;
             /// Snooker by the rules of the WPBSA.
             Snooker "snooker" "snooker" snooker;
+            /// Both other balls, and three cushions before the second.
+            ThreeCushion "three-cushion" "three_cushion" three_cushion;
+            /// Both other balls.
+            FreeCarom "free-carom" "free_carom" free_carom;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" free_play;
             /// Practice: any ball is put anywhere, shots are taken back.
@@ -67,6 +71,8 @@ impl GameKind {
                 Some("eight-ball")
             }
             GameKind::WpaNineBall => Some("nine-ball"),
+            GameKind::Snooker => Some("snooker"),
+            GameKind::ThreeCushion | GameKind::FreeCarom => Some("carom"),
             GameKind::FreePlay | GameKind::Training => None,
         }
     }

@@ -37,13 +37,11 @@ pub const GAME: Game = Game {
     },
     facts: &[Topic::BallsCollided],
     balls: 21,
-    rack: Some("snooker"),
     names: &[
         "0", "R1", "R2", "R3", "R4", "R5", "R6", "R7", "R8", "R9", "R10", "R11", "R12", "R13",
         "R14", "R15", "Y", "G", "Br", "Bl", "P", "K",
     ],
     has_score: true,
-    players: 2,
     is_practice: false,
     ends: "Settled, the black is down or fouled on and the points differ",
     in_hand: "Turn, cue ball in hand in the D",

@@ -1,7 +1,8 @@
 //! The bytes of an input decide everything that chance decides in the seeded fuzz test of the
 //! rules; libFuzzer changes them so that they reach code that none has reached yet.
 //!
-//! `cd tests/fuzz/coverage && mkdir -p corpus/rules && cargo run --release --bin rules -- corpus/rules -max_total_time=600`
+//! `cd tests/fuzz/coverage && mkdir -p corpus/rules`, then
+//! `cargo run --release --bin rules -- corpus/rules -max_total_time=600`
 
 #![no_main]
 // The modules are those of the seeded test, which uses more of them.
