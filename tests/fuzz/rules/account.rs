@@ -135,9 +135,12 @@ impl Account {
         let may_change = is_racked || self.groups == Some(Groups::Open);
         require(may_change || verdict.groups == self.groups, "groups changed")?;
         self.groups = verdict.groups;
-        // Only of the 8 on the break somebody chooses whether it returns.
+        // Of the 8 on the break, and of carom balls that touch, somebody chooses whether they return.
         let is_chosen = |choice: &Choice| {
-            matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen)
+            matches!(
+                choice,
+                Choice::Respot8Continue | Choice::Respot8CueInHandKitchen | Choice::SpotFrozen
+            )
         };
         let spots = !verdict.options.iter().any(is_chosen);
         self.awaits_return = false;
