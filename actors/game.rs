@@ -89,6 +89,10 @@ impl Stage {
         let Some(game) = game else { return Ok(self) };
         let stage = self.with(Overrides { game: Some(game), ..Overrides::default() });
         let what = format!("--game {game}");
+        if stage.scene.equipment() != self.scene.equipment() {
+            let problem = "is played with other balls, on another table than this scene's";
+            return Err(Error::input(what, problem, "choose a scene of that game with --scene"));
+        }
         match (stage.scene.rules, stage.scene.misfit(game)) {
             (None, _) => Err(Error::input(what, "the scene has no rules", "choose another scene")),
             (_, Some((problem, fix))) => Err(Error::input(what, problem, fix)),

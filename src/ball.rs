@@ -13,6 +13,10 @@ pub const POOL_MASS_KG: f64 = 0.17;
 pub const SNOOKER_RADIUS_M: f64 = 0.02625;
 /// Mass of a snooker ball [kg] (Mathavan, Jackson, Parkin 2009).
 pub const SNOOKER_MASS_KG: f64 = 0.1406;
+/// Radius of a carom ball [m]: 61.5 mm across (UMB: 61 to 61.5 mm).
+pub const CAROM_RADIUS_M: f64 = 0.03075;
+/// Mass of a carom ball [kg] (UMB: 205 to 220 g).
+pub const CAROM_MASS_KG: f64 = 0.21;
 /// Moment of inertia of a solid sphere over m R².
 pub const SOLID_SPHERE: f64 = 0.4;
 
@@ -49,6 +53,11 @@ impl Ball {
     /// A snooker ball.
     pub fn snooker(id: BallId) -> Self {
         Ball { radius_m: SNOOKER_RADIUS_M, mass_kg: SNOOKER_MASS_KG, ..Ball::pool(id) }
+    }
+
+    /// A carom ball.
+    pub fn carom(id: BallId) -> Self {
+        Ball { radius_m: CAROM_RADIUS_M, mass_kg: CAROM_MASS_KG, ..Ball::pool(id) }
     }
 
     /// Moment of inertia [kg m²].

@@ -10,8 +10,8 @@ mod game;
 pub use fact::{Fact, FactKind, TouchedBy};
 pub use game::{
     BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Choice, Command, Foul, Group, Groups,
-    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Turn, TurnAfter,
-    Verdict, Zone,
+    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Turn,
+    TurnAfter, Verdict, Zone,
 };
 
 use crate::ids::PlayerId;
@@ -111,6 +111,8 @@ pub enum Topic {
     BallOffTable,
     /// [`FactKind::BallTouched`]
     BallTouched,
+    /// [`FactKind::BallsFrozen`]
+    BallsFrozen,
     /// [`FactKind::Settled`]
     Settled,
     /// [`Event::Command`]

@@ -4,13 +4,14 @@
 //! hundredths of a millimetre apart, each a little off its place: a perfectly tight rack neither
 //! exists nor has a unique break.
 
+mod carom;
 mod next;
 mod sight;
 mod spots;
 
 pub use next::{CueBallGoes, NextRack, next_rack};
 pub use sight::{From, Sight};
-pub use spots::Spots;
+pub use spots::{Occupied, Spots};
 
 use crate::ball::{Ball, BallPlace, BallState, POOL_RADIUS_M, SNOOKER_RADIUS_M};
 use crate::events::Zone;
@@ -51,6 +52,7 @@ enum Layout {
     EightBall { seed: u64 },
     NineBall { seed: u64 },
     Snooker { seed: u64 },
+    Carom { cue_ball: BallId },
     Balls(Vec<(Ball, BallState)>),
 }
 
@@ -83,6 +85,7 @@ impl Rack {
             Layout::EightBall { .. } => Layout::EightBall { seed },
             Layout::NineBall { .. } => Layout::NineBall { seed },
             Layout::Snooker { .. } => Layout::Snooker { seed },
+            Layout::Carom { cue_ball } => Layout::Carom { cue_ball: *cue_ball },
             Layout::Balls(balls) => Layout::Balls(balls.clone()),
         };
         Rack { layout }
@@ -94,7 +97,7 @@ impl Rack {
             Layout::EightBall { seed } | Layout::NineBall { seed } | Layout::Snooker { seed } => {
                 *seed
             }
-            Layout::Balls(_) => 0,
+            Layout::Carom { .. } | Layout::Balls(_) => 0,
         };
         if serial == 0 {
             return first;
@@ -102,6 +105,13 @@ impl Rack {
         let mut random = Pcg64Mcg::seed_from_u64(first);
         random.advance(u128::from(serial));
         random.next_u64()
+    }
+
+    /// The white (0), the yellow (1) and the red (2) of carom, ready for the break of who strikes
+    /// `cue_ball`: the red on the foot spot, the opponent's ball on the head spot, the own one
+    /// beside it (rules of the UMB).
+    pub fn carom(cue_ball: BallId) -> Rack {
+        Rack { layout: Layout::Carom { cue_ball } }
     }
 
     /// These balls, just as they are.
@@ -125,6 +135,10 @@ impl Rack {
                 pool(&bed, &[1, 2, 3, 2, 1], order, random)
             }
             Layout::Snooker { seed } => snooker(&bed()?, Pcg64Mcg::seed_from_u64(*seed)),
+            Layout::Carom { cue_ball } => {
+                let places = carom::carom_start(&bed()?, *cue_ball);
+                sorted(places.map(|(id, place)| standing(Ball::carom(id), place)).into())
+            }
         }
     }
 }
@@ -248,29 +262,25 @@ pub fn overlaps(balls: &[(Ball, BallState)]) -> Option<(BallId, BallId, f64)> {
 }
 
 /// Where a ball of `radius` is spotted: on the foot spot, or on the long string as near behind it
-/// as the occupied places (middle, radius) allow; if there is no room, as near before it (WPA
+/// as the occupied places allow; if there is no room, as near before it (WPA
 /// rule 1.4). All in metres.
-pub fn spot_position(
-    bed: &Bed,
-    occupied: impl Iterator<Item = (DVec2, f64)>,
-    radius: f64,
-) -> DVec2 {
-    nearest_on_line(bed, bed.foot_spot(), &occupied.collect::<Vec<_>>(), radius)
+pub fn spot_position(bed: &Bed, occupied: &[Occupied], radius: f64) -> DVec2 {
+    nearest_on_line(bed, bed.foot_spot(), occupied, radius)
 }
 
 /// The free place nearest behind `spot` on the line to the foot rail, or else nearest before it;
 /// the spot itself if it is free, or if the whole line is full. All in metres.
-fn nearest_on_line(bed: &Bed, spot: DVec2, occupied: &[(DVec2, f64)], radius: f64) -> DVec2 {
+fn nearest_on_line(bed: &Bed, spot: DVec2, occupied: &[Occupied], radius: f64) -> DVec2 {
     // A spotted ball stands as close as can be without touching.
     let gap = 1e-6;
     let is_free = |x: f64| {
         let here = DVec2::new(x, spot.y);
         bed.holds(here, radius)
-            && occupied.iter().all(|(place, other)| place.distance(here) > radius + other)
+            && occupied.iter().all(|(_, place, other)| place.distance(here) > radius + other)
     };
     // The nearest free place is the spot itself or touches one of the balls.
     let mut candidates = vec![spot.x];
-    for (place, other) in occupied {
+    for (_, place, other) in occupied {
         let reach = radius + other + gap;
         let off = place.y - spot.y;
         let half = (reach * reach - off * off).max(0.0).sqrt();

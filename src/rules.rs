@@ -9,6 +9,7 @@
 //! The rules never look at positions: whoever asks where a ball lies asks physics.
 
 mod ball_names;
+mod carom;
 mod console;
 mod fact_json;
 mod fouls;

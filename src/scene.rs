@@ -138,6 +138,8 @@ pub enum RackKind {
     NineBall,
     /// Snooker: fifteen reds in a triangle, the colours on their spots, and the cue ball.
     Snooker,
+    /// White, yellow and red of carom.
+    Carom,
 }
 
 impl RackKind {
@@ -147,12 +149,14 @@ impl RackKind {
             RackKind::EightBall => 15,
             RackKind::NineBall => 9,
             RackKind::Snooker => 21,
+            RackKind::Carom => 2,
         };
         (0..=last).map(BallId)
     }
 
     /// All racks.
-    pub const ALL: [RackKind; 3] = [RackKind::EightBall, RackKind::NineBall, RackKind::Snooker];
+    pub const ALL: [RackKind; 4] =
+        [RackKind::EightBall, RackKind::NineBall, RackKind::Snooker, RackKind::Carom];
 
     /// The rack with this name.
     pub fn named(name: &str) -> Option<Self> {
@@ -164,6 +168,7 @@ impl RackKind {
         match self {
             RackKind::EightBall | RackKind::NineBall => Equipment::Pool,
             RackKind::Snooker => Equipment::Snooker,
+            RackKind::Carom => Equipment::Carom,
         }
     }
 
@@ -173,6 +178,7 @@ impl RackKind {
             RackKind::EightBall => "eight-ball",
             RackKind::NineBall => "nine-ball",
             RackKind::Snooker => "snooker",
+            RackKind::Carom => "carom",
         }
     }
 }

@@ -4,6 +4,7 @@
 pub const TABLES: &[(&str, &str)] = &[
     ("pool-9ft", include_str!("../config/tables/pool-9ft.toml")),
     ("snooker-12ft", include_str!("../config/tables/snooker-12ft.toml")),
+    ("carom-10ft", include_str!("../config/tables/carom-10ft.toml")),
 ];
 
 /// The scenes, by name: the text of `config/scenes/NAME.toml`.
@@ -16,6 +17,8 @@ pub const SCENES: &[(&str, &str)] = &[
     ("training", include_str!("../config/scenes/training.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
     ("snooker", include_str!("../config/scenes/snooker.toml")),
+    ("three_cushion", include_str!("../config/scenes/three_cushion.toml")),
+    ("free_carom", include_str!("../config/scenes/free_carom.toml")),
     ("break_shot", include_str!("../config/scenes/break_shot.toml")),
     ("one_ball", include_str!("../config/scenes/one_ball.toml")),
     ("minigolf", include_str!("../config/scenes/minigolf.toml")),

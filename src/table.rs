@@ -3,9 +3,9 @@
 //! The origin is the middle of the bed, which lies at z = 0; x runs along it from head to foot,
 //! y to the left, z up. All lengths in metres.
 //!
-//! A pool table is made from [`TableParameters`] alone: the closed mesh that balls touch, the
-//! pockets that players aim at, and, when somebody asks, the parts that are drawn. All three agree
-//! because they share one plan; none is read from a model file.
+//! A table for pool or carom is made from [`TableParameters`] alone: the closed mesh that balls
+//! touch, the pockets that players aim at (if it has any), and, when somebody asks, the parts that
+//! are drawn. All three agree because they share one plan; none is read from a model file.
 
 mod parameters;
 
@@ -16,6 +16,8 @@ mod plan;
 mod flat;
 
 mod quarter;
+
+mod pocketless;
 
 mod pocket;
 
@@ -67,6 +69,9 @@ pub enum TableError {
         /// The most that is allowed.
         most: f64,
     },
+    /// A table has all six pockets or none.
+    #[error("a table with only [corner] or only [side] pockets; write both sections, or neither")]
+    HalfPocketed,
     /// Each parameter is possible, but together they make no table.
     #[error(
         "the table's pockets, cushions and rails do not fit each other; \
@@ -85,7 +90,7 @@ pub struct Table {
     pub name: String,
     /// The playing area, if it is a billiard table.
     pub bed: Option<Bed>,
-    /// Its pockets, in the order of [`PocketId::ALL`].
+    /// Its pockets, in the order of [`PocketId::ALL`]; none on a carom table.
     pub pockets: Vec<Pocket>,
     /// Everything that balls can touch, but for planes.
     pub mesh: Mesh,
@@ -93,7 +98,7 @@ pub struct Table {
     pub planes: Vec<Plane>,
     /// Where balls return to.
     pub spots: Spots,
-    /// What it was made from, if it is a pool table.
+    /// What it was made from, if it is a billiard table.
     pub parameters: Option<TableParameters>,
 }
 
@@ -107,7 +112,7 @@ impl Table {
         Table::from_parameters(name, TableParameters::from_toml(text)?)
     }
 
-    /// A pool table of these dimensions, standing on an endless floor.
+    /// A table of these dimensions, standing on an endless floor.
     pub fn from_parameters(name: &str, parameters: TableParameters) -> Result<Table, TableError> {
         parameters.check()?;
         let floor = Plane {
@@ -118,7 +123,10 @@ impl Table {
         Ok(Table {
             name: name.to_owned(),
             bed: Some(Bed { length_m: parameters.length_m, width_m: parameters.width_m }),
-            pockets: PocketId::ALL.map(|id| pocket(&parameters, id)).to_vec(),
+            pockets: match parameters.pockets() {
+                Some(kinds) => PocketId::ALL.map(|id| pocket(&parameters, kinds, id)).to_vec(),
+                None => Vec::new(),
+            },
             mesh: physics_mesh::physics_mesh(&parameters)?,
             planes: vec![floor],
             spots: Spots::default(),
@@ -141,7 +149,11 @@ impl Table {
 }
 
 /// A pocket as players see it.
-fn pocket(parameters: &TableParameters, id: PocketId) -> Pocket {
+fn pocket(
+    parameters: &TableParameters,
+    [corner, side]: [&PocketParameters; 2],
+    id: PocketId,
+) -> Pocket {
     let noses = 0.5 * DVec2::new(parameters.length_m, parameters.width_m);
     let (sx, sy) = match id {
         PocketId::Hl => (-1.0, 1.0),
@@ -151,24 +163,28 @@ fn pocket(parameters: &TableParameters, id: PocketId) -> Pocket {
     };
     let signs = DVec2::new(sx, sy);
     if id.is_side() {
-        let half = 0.5 * parameters.side.mouth_m;
+        let half = 0.5 * side.mouth_m;
         return Pocket {
             id,
             mouth: [DVec2::new(-half, sy * noses.y), DVec2::new(half, sy * noses.y)],
-            centre: signs * plan::side_centre(parameters),
-            radius_m: parameters.side.radius_m,
+            centre: signs * plan::side_centre(parameters, side),
+            radius_m: side.radius_m,
             heading: DVec2::new(0.0, sy),
         };
     }
-    let cut = parameters.corner.mouth_m * 0.5f64.sqrt();
+    let cut = corner.mouth_m * 0.5f64.sqrt();
     Pocket {
         id,
         mouth: [signs * (noses - DVec2::new(cut, 0.0)), signs * (noses - DVec2::new(0.0, cut))],
-        centre: signs * plan::corner_centre(parameters),
-        radius_m: parameters.corner.radius_m,
+        centre: signs * plan::corner_centre(parameters, corner),
+        radius_m: corner.radius_m,
         heading: signs * 0.5f64.sqrt(),
     }
 }
+
+/// How far beside the head spot the first cue ball of carom stands [m]: marks of the UMB for the
+/// match table.
+pub const CAROM_START_M: f64 = 0.1825;
 
 /// Radius of snooker's D over the width of the bed: 11½ inches on a table 70 inches wide.
 const D_RADIUS: f64 = 11.5 / 70.0;

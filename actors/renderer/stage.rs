@@ -229,7 +229,9 @@ fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
         *place = vec2(spot.x as f32, spot.y as f32);
     }
     let d_radius_m = marks.d_radius_m.unwrap_or(0.0);
-    (vec2(marks.line_x_m as f32, d_radius_m as f32), spots)
+    // No line is one that lies beyond every table.
+    let line_x_m = marks.line_x_m.unwrap_or(-1e3);
+    (vec2(line_x_m as f32, d_radius_m as f32), spots)
 }
 
 fn kind(made: Made) -> u16 {

@@ -55,6 +55,8 @@ fn dislike(choice: Choice, outlook: Outlook, has_asked: bool) -> u8 {
         Choice::Accept | Choice::Shoot | Choice::Play => 7,
         Choice::RerackOpponentBreaks | Choice::Rebreak | Choice::AskAgain => 8,
         Choice::PutBack if !has_asked => 6,
+        // The next shot must lead away from a ball that touches.
+        Choice::SpotFrozen => 6,
         Choice::PutBack => 9,
     }
 }

@@ -34,7 +34,8 @@ pub enum FactKind {
         /// False: outside the zone or on another ball.
         ok: bool,
     },
-    /// A contact of the tip with a ball began. A second one in one shot is a double hit.
+    /// A contact of the tip with a ball began: with the cue ball, whichever that is, or with one
+    /// that may not be struck. A second one in one shot is a double hit.
     #[serde(rename = "tip")]
     CueBallStruck {
         /// The ball.
@@ -55,7 +56,7 @@ pub enum FactKind {
         #[serde(default)]
         normal_speed_m_s: f64,
     },
-    /// Two balls met; `a` is the cue ball if it is one of them.
+    /// Two balls met; `a` is ball 0 if it is one of them.
     #[serde(rename = "hit")]
     BallsCollided {
         /// The first ball.
@@ -120,6 +121,15 @@ pub enum FactKind {
         /// By what.
         by: TouchedBy,
     },
+    /// Two balls lie against each other, now that everything is at rest: told just before
+    /// [`FactKind::Settled`].
+    #[serde(rename = "frozen")]
+    BallsFrozen {
+        /// The one with the lower number.
+        a: BallId,
+        /// The other.
+        b: BallId,
+    },
     /// Everything is at rest and nothing spins.
     #[serde(rename = "settle")]
     Settled {
@@ -141,7 +151,7 @@ fn is_false(flag: &bool) -> bool {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TouchedBy {
-    /// The tip, on a ball that is not the cue ball.
+    /// The tip, on a ball that is not the cue ball. The rules say so of what was struck.
     Tip,
     /// The shaft.
     Shaft,
@@ -170,6 +180,7 @@ impl FactKind {
             FactKind::BallPocketed { .. } => Topic::BallPocketed,
             FactKind::BallOffTable { .. } => Topic::BallOffTable,
             FactKind::BallTouched { .. } => Topic::BallTouched,
+            FactKind::BallsFrozen { .. } => Topic::BallsFrozen,
             FactKind::Settled { .. } => Topic::Settled,
         }
     }
@@ -185,6 +196,7 @@ impl FactKind {
             FactKind::BallPocketed { .. } => "BallPocketed",
             FactKind::BallOffTable { .. } => "BallOffTable",
             FactKind::BallTouched { .. } => "BallTouched",
+            FactKind::BallsFrozen { .. } => "BallsFrozen",
             FactKind::Settled { .. } => "Settled",
         }
     }

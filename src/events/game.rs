@@ -24,8 +24,8 @@ pub enum Command {
         /// Where it may be put.
         zone: Zone,
     },
-    /// Put balls back on their spots, or as near behind them as there is room. From the rules.
-    SpotBalls(SmallVec<[BallId; 4]>),
+    /// Put balls back on their spots. From the rules.
+    SpotBalls(Spotting),
     /// Rack balls anew. From the rules.
     Rack(Racking),
     /// Put the balls back where they lay before the last shot; training.
@@ -34,6 +34,16 @@ pub enum Command {
     Call(Call),
     /// Take one of the offered options.
     Choose(Choice),
+}
+
+/// Which balls return to the table.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Spotting {
+    /// The balls.
+    pub balls: SmallVec<[BallId; 4]>,
+    /// The ball that is struck next: in carom the other ones' spots depend on it.
+    #[serde(default)]
+    pub cue_ball: BallId,
 }
 
 /// Which balls are racked.
@@ -410,6 +420,7 @@ pub enum Choice {
     AskAgain,
     Play,
     PutBack,
+    SpotFrozen,
 }
 
 /// What the rules say about a shot.
@@ -462,8 +473,12 @@ pub struct Verdict {
 impl Verdict {
     /// Balls that return to the table at once; none where that is a matter of choice.
     pub fn spotted_now(&self) -> &[BallId] {
-        let decides =
-            |choice| matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen);
+        let decides = |choice| {
+            matches!(
+                choice,
+                Choice::Respot8Continue | Choice::Respot8CueInHandKitchen | Choice::SpotFrozen
+            )
+        };
         if self.options.iter().copied().any(decides) { &[] } else { &self.spot }
     }
 }

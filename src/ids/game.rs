@@ -20,6 +20,10 @@ macro_rules! for_all_games {
             Straight "straight" "straight" "eight-ball" straight;
             /// Snooker by the rules of the WPBSA.
             Snooker "snooker" "snooker" "snooker" snooker;
+            /// Both other balls, and three cushions before the second.
+            ThreeCushion "three-cushion" "three_cushion" "carom" three_cushion;
+            /// Both other balls.
+            FreeCarom "free-carom" "free_carom" "carom" free_carom;
             /// Everybody for himself, without fouls.
             FreePlay "free-play" "free_play" "" free_play;
             /// Practice: any ball is put anywhere, shots are taken back.

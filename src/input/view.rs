@@ -54,6 +54,8 @@ pub struct HumanView {
     pub camera: CameraPose,
     /// What the player is doing.
     pub mode: HumanMode,
+    /// The ball that is struck.
+    pub cue_ball: BallId,
     /// How the cue is held, while aiming and stroking.
     pub aim: Aim,
     /// How far the tip is from where it meets the ball [m], backwards, while stroking.

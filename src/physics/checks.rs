@@ -1,8 +1,9 @@
 //! What every solver asks of the balls and commands that it is given.
 
-use super::PhysicsError;
+use super::{PhysicsError, tolerance};
 use crate::ball::{Ball, BallState};
 use crate::events::{Command, Zone};
+use crate::ids::BallId;
 use crate::table::{Bed, Pocket};
 use crate::units::Seconds;
 use glam::{DVec2, DVec3};
@@ -82,13 +83,31 @@ fn check_overlaps(balls: &[(Ball, BallState)]) -> Result<(), PhysicsError> {
         {
             let (b, there) = &balls[*other];
             let depth_m = a.radius_m + b.radius_m - at.position.distance(there.position);
-            if depth_m > super::tolerance::START_OVERLAP_M {
+            if depth_m > tolerance::START_OVERLAP_M {
                 let (a, b) = if a.id < b.id { (a.id, b.id) } else { (b.id, a.id) };
                 return Err(PhysicsError::Overlap { a, b, depth_m });
             }
         }
     }
     Ok(())
+}
+
+/// The pairs that lie against each other, of balls with their middles and radii [m]; the lower
+/// number first, in ascending order.
+pub fn frozen_pairs(mut balls: Vec<(BallId, DVec3, f64)>) -> Vec<(BallId, BallId)> {
+    let low = |(_, middle, radius_m): &(BallId, DVec3, f64)| middle.x - radius_m;
+    balls.sort_by(|a, b| low(a).total_cmp(&low(b)).then(a.0.cmp(&b.0)));
+    let mut pairs = Vec::new();
+    for (i, (a, here, radius_m)) in balls.iter().enumerate() {
+        let right = here.x + radius_m + tolerance::APART_M;
+        for (b, there, other_m) in balls[i + 1..].iter().take_while(|other| low(other) <= right) {
+            if here.distance(*there) - radius_m - other_m <= tolerance::APART_M {
+                pairs.push((*a.min(b), *a.max(b)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
 }
 
 /// A command whose numbers are numbers.

@@ -1,11 +1,10 @@
 //! The numbers of the contact laws.
 
-use super::Equipment;
 use super::laws::choice::{BallLaw, CushionLaw, MultiContact};
 use super::laws::cloth::Carrying;
 use super::laws::mathavan_2010;
 use super::laws::speed_friction::FrictionCurve;
-use super::{ExactTolerances, PhysicsSettings, Profile};
+use super::{Equipment, ExactTolerances, PhysicsSettings, Profile};
 use crate::mesh::Surface;
 
 /// Restitution and friction of a contact.

@@ -3,7 +3,8 @@
 use super::Parameters;
 use super::laws::choice::CushionLaw;
 use super::parameters::Contact;
-use crate::ball::{Ball, POOL_MASS_KG, POOL_RADIUS_M, SNOOKER_MASS_KG, SNOOKER_RADIUS_M};
+use crate::ball::{Ball, CAROM_MASS_KG, CAROM_RADIUS_M, POOL_MASS_KG, POOL_RADIUS_M};
+use crate::ball::{SNOOKER_MASS_KG, SNOOKER_RADIUS_M};
 use crate::ids::BallId;
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +61,7 @@ impl Equipment {
         let (radius_m, mass_kg) = match self {
             Equipment::Pool => (POOL_RADIUS_M, POOL_MASS_KG),
             Equipment::Snooker => (SNOOKER_RADIUS_M, SNOOKER_MASS_KG),
-            Equipment::Carom => (0.03075, 0.21),
+            Equipment::Carom => (CAROM_RADIUS_M, CAROM_MASS_KG),
         };
         Ball { radius_m, mass_kg, ..Ball::pool(id) }
     }

@@ -23,7 +23,7 @@ impl Snapshot {
     }
 
     /// The balls in play.
-    pub fn on_table(&self) -> impl Iterator<Item = &BallState> {
+    pub fn on_table(&self) -> impl Iterator<Item = &BallState> + Clone {
         self.balls.iter().filter(|ball| ball.place == BallPlace::OnTable)
     }
 }

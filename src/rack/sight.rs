@@ -1,6 +1,6 @@
 //! Whether a player is snookered: what can be hit in a straight line.
 
-use super::Spots;
+use super::{Occupied, Spots};
 use crate::ids::BallId;
 use crate::table::Bed;
 use glam::DVec2;
@@ -43,12 +43,13 @@ impl Sight {
     ) -> Vec<(BallId, DVec2)> {
         let mut balls: Vec<(BallId, DVec2)> =
             lying.iter().copied().filter(|(ball, _)| !spot.contains(ball)).collect();
-        let mut occupied: Vec<(DVec2, f64)> =
-            balls.iter().map(|(_, at)| *at).chain(cue_ball).map(|at| (at, self.radius_m)).collect();
+        let cue = cue_ball.map(|at| (BallId::CUE, at));
+        let mut occupied: Vec<Occupied> =
+            balls.iter().copied().chain(cue).map(|(id, at)| (id, at, self.radius_m)).collect();
         for ball in self.spots.in_order(&self.bed, spot, &occupied, self.radius_m) {
-            let at = self.spots.place(&self.bed, ball, &occupied, self.radius_m);
+            let at = self.spots.place(&self.bed, ball, BallId::CUE, &occupied, self.radius_m);
             balls.push((ball, at));
-            occupied.push((at, self.radius_m));
+            occupied.push((ball, at, self.radius_m));
         }
         balls
     }

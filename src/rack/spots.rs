@@ -1,10 +1,14 @@
 //! Spots: where balls return to the table.
 
+use super::carom::carom_spot;
 use super::{nearest_on_line, spot_position};
 use crate::ids::BallId;
 use crate::table::Bed;
 use glam::DVec2;
 use smallvec::SmallVec;
+
+/// A ball that takes up room: its name, its middle and its radius [m].
+pub type Occupied = (BallId, DVec2, f64);
 
 /// The spots that a set of balls has.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +18,8 @@ pub enum Spots {
     Foot,
     /// One for each colour of snooker, 16 to 21: yellow, green, brown, blue, pink, black.
     Snooker,
+    /// Carom: one for each ball.
+    Carom,
 }
 
 /// The colours of snooker, from the lowest value to the highest.
@@ -23,7 +29,7 @@ const COLOURS: std::ops::RangeInclusive<u16> = 16..=21;
 const BLACK_FROM_TOP: f64 = 12.75 / 140.5;
 
 impl Spots {
-    /// A ball's own spot [m].
+    /// A ball's own spot in pool or snooker [m].
     pub fn of(self, bed: &Bed, ball: BallId) -> DVec2 {
         let baulk = DVec2::new(bed.baulk_line_x(), 0.0);
         match (self, ball.0) {
@@ -37,16 +43,30 @@ impl Spots {
         }
     }
 
-    /// Where a ball is spotted, given the places and radii of the others [m].
+    /// Where a ball is spotted, given the others and the ball that is struck next. All in metres.
     ///
-    /// In pool see [`spot_position`]. A colour of snooker goes to its own spot; if that is occupied
-    /// to the free spot of the highest value; if all are, as near to its own spot as possible on
-    /// the line to the top cushion, or else on the line away from it (rules of the WPBSA on
-    /// spotting colours).
-    pub fn place(self, bed: &Bed, ball: BallId, occupied: &[(DVec2, f64)], radius_m: f64) -> DVec2 {
-        if self == Spots::Foot || !COLOURS.contains(&ball.0) {
-            return spot_position(bed, occupied.iter().copied(), radius_m);
+    /// In pool see [`spot_position`]. In carom each ball has a spot. A colour of snooker goes to
+    /// its own spot; if that is occupied to the free spot of the highest value; if all are, as near
+    /// to its own spot as possible on the line to the top cushion, or else on the line away from it
+    /// (rules of the WPBSA on spotting colours).
+    pub fn place(
+        self,
+        bed: &Bed,
+        ball: BallId,
+        cue_ball: BallId,
+        occupied: &[Occupied],
+        radius_m: f64,
+    ) -> DVec2 {
+        match self {
+            Spots::Snooker if COLOURS.contains(&ball.0) => {
+                self.colour_spot(bed, ball, occupied, radius_m)
+            }
+            Spots::Foot | Spots::Snooker => spot_position(bed, occupied, radius_m),
+            Spots::Carom => carom_spot(bed, cue_ball, ball, occupied, radius_m),
         }
+    }
+
+    fn colour_spot(self, bed: &Bed, ball: BallId, occupied: &[Occupied], radius_m: f64) -> DVec2 {
         let own = self.of(bed, ball);
         let highest_first = COLOURS.rev().map(|id| self.of(bed, BallId(id)));
         std::iter::once(own)
@@ -61,7 +81,7 @@ impl Spots {
         self,
         bed: &Bed,
         balls: &[BallId],
-        occupied: &[(DVec2, f64)],
+        occupied: &[Occupied],
         radius_m: f64,
     ) -> SmallVec<[BallId; 4]> {
         let mut order = SmallVec::from_slice(balls);
@@ -74,6 +94,6 @@ impl Spots {
 }
 
 /// Whether a ball can stand here without touching another.
-fn is_free(place: DVec2, occupied: &[(DVec2, f64)], radius_m: f64) -> bool {
-    occupied.iter().all(|(other, radius)| place.distance(*other) > radius_m + radius)
+fn is_free(place: DVec2, occupied: &[Occupied], radius_m: f64) -> bool {
+    occupied.iter().all(|(_, other, radius)| place.distance(*other) > radius_m + radius)
 }

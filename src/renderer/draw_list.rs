@@ -148,9 +148,9 @@ impl DrawList {
     }
 
     fn show_aim(&mut self, world: &Snapshot, view: &HumanView, radii: &Radii) {
-        let cue_ball = world.ball(BallId::CUE).filter(|ball| ball.place == BallPlace::OnTable);
+        let cue_ball = world.ball(view.cue_ball).filter(|ball| ball.place == BallPlace::OnTable);
         let (Some(cue_ball), Some(ghost)) = (cue_ball, view.ghost) else { return };
-        let radius_m = radii.of(BallId::CUE);
+        let radius_m = radii.of(view.cue_ball);
         let way = (ghost - cue_ball.position).truncate();
         let length = way.length();
         let ahead = way.normalize_or_zero();

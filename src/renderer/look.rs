@@ -23,13 +23,16 @@ pub enum BallSet {
     Pool,
     /// Fifteen reds and six colours, without numbers.
     Snooker,
+    /// White, yellow and red, without numbers.
+    Carom,
 }
 
 impl From<Equipment> for BallSet {
     fn from(equipment: Equipment) -> Self {
         match equipment {
+            Equipment::Pool => BallSet::Pool,
             Equipment::Snooker => BallSet::Snooker,
-            Equipment::Pool | Equipment::Carom => BallSet::Pool,
+            Equipment::Carom => BallSet::Carom,
         }
     }
 }
@@ -40,6 +43,7 @@ impl BallSet {
         match self {
             BallSet::Pool => ball_look(ball),
             BallSet::Snooker => snooker_look(ball),
+            BallSet::Carom => carom_look(ball),
         }
     }
 }
@@ -54,6 +58,16 @@ fn snooker_look(ball: BallId) -> BallLook {
         19 => [0.04, 0.20, 0.62],
         20 => [0.95, 0.50, 0.58],
         21 => [0.025, 0.025, 0.03],
+        _ => IVORY,
+    };
+    BallLook { colour, is_striped: false, number: None }
+}
+
+/// The look of a carom ball: 1 is yellow, 2 red, the others are white.
+fn carom_look(ball: BallId) -> BallLook {
+    let colour = match ball.0 {
+        1 => [0.96, 0.74, 0.05],
+        2 => [0.72, 0.03, 0.05],
         _ => IVORY,
     };
     BallLook { colour, is_striped: false, number: None }

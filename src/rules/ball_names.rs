@@ -5,7 +5,7 @@ use crate::ids::{BallId, GameKind};
 use serde_json::{Map, Value};
 
 /// Keys under which rule files write balls.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "ball",
     "a",
     "b",
@@ -17,6 +17,7 @@ const KEYS: [&str; 12] = [
     "pocketed",
     "ball_on_next",
     "frozen",
+    "frozen_to_cue",
     "legal_first",
 ];
 

@@ -15,7 +15,7 @@ pub(super) struct NoFact {
 }
 
 /// The tags of facts in rule files, and the names that reports give them.
-const TAGS: [(&str, &str); 9] = [
+const TAGS: [(&str, &str); 10] = [
     ("BallPlaced", "place"),
     ("CueBallStruck", "tip"),
     ("BallsCollided", "hit"),
@@ -24,6 +24,7 @@ const TAGS: [(&str, &str); 9] = [
     ("BallPocketed", "pocket"),
     ("BallOffTable", "off"),
     ("BallTouched", "touch"),
+    ("BallsFrozen", "frozen"),
     ("Settled", "settle"),
 ];
 
@@ -91,6 +92,7 @@ mod tests {
             r#""e":"pocket","ball":"3","pocket":"FL""#,
             r#""e":"off","ball":"3""#,
             r#""e":"touch","ball":"3","by":"hand""#,
+            r#""e":"frozen","a":"0","b":"2""#,
             r#""e":"settle""#,
         ];
         for (sample, (long, tag)) in samples.into_iter().zip(TAGS) {

@@ -12,7 +12,7 @@ use super::{legal_first, topics};
 use crate::ball::BallState;
 use crate::events::{
     BallInHand, Call, CallKind, Choice, Command, Event, Fact, FactKind, Racked, Racking, Source,
-    Topic, Topics, Turn, TurnAfter, Verdict, Zone,
+    Spotting, Topic, Topics, Turn, TurnAfter, Verdict, Zone,
 };
 use crate::hash::StateHash;
 use crate::ids::GameKind;
@@ -218,13 +218,19 @@ impl Referee {
             sayings.push(Event::Command(Command::Undo));
         }
         if !chosen.spot.is_empty() {
-            sayings.push(Event::Command(Command::SpotBalls(chosen.spot)));
+            sayings.push(self.spot(chosen.spot));
         }
         if chosen.rack {
             sayings.push(self.rack(Racked::All));
         }
         sayings.extend(self.announce_turn());
         sayings
+    }
+
+    /// Balls return to where they belong for whoever shoots next.
+    fn spot(&self, balls: SmallVec<[BallId; 4]>) -> Event {
+        let cue_ball = self.state.cue_ball;
+        Event::Command(Command::SpotBalls(Spotting { balls, cue_ball }))
     }
 
     fn rack(&mut self, balls: Racked) -> Event {
@@ -270,6 +276,7 @@ impl Referee {
                 | FactKind::HeadStringCrossed { .. }
                 | FactKind::BallPocketed { .. }
                 | FactKind::BallOffTable { .. }
+                | FactKind::BallsFrozen { .. }
                 | FactKind::Settled { .. } => Sayings::new(),
             },
 
@@ -344,7 +351,7 @@ impl Referee {
         let mut sayings = Sayings::new();
         sayings.push(Event::Verdict(verdict.clone()));
         if !verdict.spotted_now().is_empty() {
-            sayings.push(Event::Command(Command::SpotBalls(verdict.spot.clone())));
+            sayings.push(self.spot(verdict.spot.clone()));
         }
         if let Some(balls) = verdict.rack {
             sayings.push(self.rack(balls));

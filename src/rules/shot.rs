@@ -39,6 +39,8 @@ pub struct Shot {
     pub placement: Option<(Zone, bool)>,
     /// How often a contact of the tip with the cue ball began.
     pub tips: u32,
+    /// When the first of them did [s].
+    pub struck_s: Option<Seconds>,
     /// The tip was still on the cue ball when that met another ball.
     pub push: bool,
     /// A ball was still moving or spinning when the cue ball was struck.
@@ -72,6 +74,8 @@ pub struct Shot {
     pub touched: SmallVec<[(BallId, TouchedBy); 2]>,
     /// When the cue ball first crossed the head string towards the foot [s].
     pub crossed_head_s: Option<Seconds>,
+    /// Balls that lie against each other at the end.
+    pub frozen: SmallVec<[(BallId, BallId); 2]>,
     /// Everything is at rest: the shot can be judged.
     pub settled: bool,
     /// Snooker: no ball on can be hit on both edges in a straight line.
@@ -98,6 +102,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
         }
         FactKind::CueBallStruck { ball, push, moving, player, .. } if ball == cue_ball => {
             shot.tips = shot.tips.saturating_add(1);
+            shot.struck_s.get_or_insert(fact.time_s);
             shot.push |= push;
             shot.moving |= moving;
             shot.struck_by = shot.struck_by.or(player);
@@ -142,6 +147,7 @@ pub fn watch(shot: &mut Shot, fact: &Fact) {
             }
         }
         FactKind::BallTouched { ball, by } => shot.touched.push((ball, by)),
+        FactKind::BallsFrozen { a, b } => shot.frozen.push((a, b)),
         FactKind::Settled { snookered, cue_in_rack } => {
             shot.settled = true;
             shot.snookered = snookered;
@@ -187,6 +193,19 @@ impl Shot {
             self.pocketed.iter().map(|pocketed| pocketed.ball).chain(self.off.iter().copied());
         let mut balls: SmallVec<[BallId; 16]> =
             to_rails.chain(gone).filter(|ball| *ball != self.cue_ball).collect();
+        balls.sort_unstable();
+        balls.dedup();
+        balls
+    }
+
+    /// The balls that lie against this one at the end, in ascending order.
+    pub fn frozen_to(&self, ball: BallId) -> SmallVec<[BallId; 2]> {
+        let other = |(a, b): &(BallId, BallId)| match (*a == ball, *b == ball) {
+            (true, false) => Some(*b),
+            (false, true) => Some(*a),
+            _ => None,
+        };
+        let mut balls: SmallVec<[BallId; 2]> = self.frozen.iter().filter_map(other).collect();
         balls.sort_unstable();
         balls.dedup();
         balls
@@ -269,6 +288,9 @@ impl Shot {
                 Met::Ball(ball) => u64::from(ball.0),
             }),
         );
+        self.cue_met.iter().for_each(|(time_s, _)| hash.f64(*time_s));
+        hash.f64(self.struck_s.unwrap_or(-1.0));
+        hash_list(hash, self.frozen.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
         hash_list(hash, self.pocketed.iter().map(|p| u64::from(p.ball.0) << 16 | p.pocket as u64));
         self.pocketed.iter().for_each(|pocketed| hash.f64(pocketed.time_s));
         hash_list(hash, self.off.iter().map(|ball| ball.0.into()));

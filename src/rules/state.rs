@@ -64,6 +64,9 @@ pub struct State {
     /// The ball that the player strikes.
     #[serde(skip_serializing_if = "is_zero")]
     pub cue_ball: BallId,
+    /// Balls that lie against the cue ball, where that matters.
+    #[serde(skip_serializing_if = "SmallVec::is_empty", deserialize_with = "ascending")]
+    pub frozen_to_cue: SmallVec<[BallId; 2]>,
     /// What the player must choose from before anybody shoots; nothing if there is no choice.
     #[serde(skip_serializing_if = "SmallVec::is_empty")]
     pub options: SmallVec<[Choice; 3]>,
@@ -104,6 +107,7 @@ impl Default for State {
             free_ball: false,
             missed: None,
             cue_ball: BallId::CUE,
+            frozen_to_cue: SmallVec::new(),
             options: SmallVec::new(),
             is_alone: false,
         }
@@ -129,10 +133,13 @@ fn one_of_two<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PlayerId, D:
     }
 }
 
-fn ascending<'de, D: Deserializer<'de>>(
+fn ascending<'de, D: Deserializer<'de>, const N: usize>(
     deserializer: D,
-) -> Result<SmallVec<[BallId; 16]>, D::Error> {
-    let mut balls = SmallVec::deserialize(deserializer)?;
+) -> Result<SmallVec<[BallId; N]>, D::Error>
+where
+    [BallId; N]: smallvec::Array<Item = BallId>,
+{
+    let mut balls: SmallVec<[BallId; N]> = SmallVec::deserialize(deserializer)?;
     balls.sort_unstable();
     balls.dedup();
     Ok(balls)
@@ -250,6 +257,7 @@ impl State {
             breaker: self.breaker,
             cue_ball: self.cue_ball,
             is_alone: self.is_alone,
+            frozen_to_cue: SmallVec::new(),
         }
     }
 
@@ -276,6 +284,7 @@ impl State {
         hash.u64(code_of(self.on));
         hash.u64(self.nominated.map_or(0, |ball| 1 + u64::from(ball.0)));
         hash.u64(self.cue_ball.0.into());
+        hash_list(hash, self.frozen_to_cue.iter().map(|ball| ball.0.into()));
         hash_list(hash, self.options.iter().map(|choice| *choice as u64));
         if let Some(missed) = &self.missed {
             hash_list(hash, missed.on_table.iter().map(|ball| ball.0.into()));

@@ -308,14 +308,15 @@ mod tests {
             Choice::PassBack => Some(Choice::AskAgain),
             Choice::AskAgain => Some(Choice::Play),
             Choice::Play => Some(Choice::PutBack),
-            Choice::PutBack => None,
+            Choice::PutBack => Some(Choice::SpotFrozen),
+            Choice::SpotFrozen => None,
         };
         std::iter::successors(Some(Choice::Accept), |choice| next(*choice)).collect()
     }
 
     #[test]
     fn every_option_has_its_words_in_both_languages() {
-        assert_eq!(all_choices().len(), 12);
+        assert_eq!(all_choices().len(), 13);
         for language in Language::ALL {
             let texts = Texts::new(language);
             for choice in all_choices() {

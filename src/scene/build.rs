@@ -1,6 +1,6 @@
 //! Makes the table and the balls that a scene names.
 
-use super::PlayerId;
+use super::{BallId, PlayerId};
 use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::ids::GameKind;
@@ -24,9 +24,11 @@ impl Scene {
             })?,
             None => Table { name: self.about.name.clone(), ..Table::default() },
         };
-        if self.equipment() == Equipment::Snooker {
-            table.spots = Spots::Snooker;
-        }
+        table.spots = match self.equipment() {
+            Equipment::Pool => Spots::Foot,
+            Equipment::Snooker => Spots::Snooker,
+            Equipment::Carom => Spots::Carom,
+        };
         table.planes.extend_from_slice(&self.planes);
         for section in &self.boxes {
             table.mesh.append(&box_mesh(section));
@@ -105,6 +107,11 @@ impl Scene {
             RackKind::EightBall => Rack::eight_ball(seed),
             RackKind::NineBall => Rack::nine_ball(seed),
             RackKind::Snooker => Rack::snooker(seed),
+            // Each player has a ball of his own: who breaks decides which stands beside.
+            RackKind::Carom => Rack::carom(match self.rules.map(|rules| rules.first_player) {
+                Some(PlayerId::TWO) => BallId(1),
+                _ => BallId::CUE,
+            }),
         }
     }
 

@@ -97,9 +97,18 @@ fn ground(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// Whether a shipped table has pockets.
+fn has_pockets(preset: &str) -> bool {
+    parameters(preset).is_some_and(|table| table.pockets().is_some())
+}
+
+fn parameters(preset: &str) -> Option<TableParameters> {
+    TableParameters::from_toml(crate::shipped::table(preset)?).ok()
+}
+
 /// The bed of a shipped table, without building its mesh.
 fn bed(preset: &str) -> Option<Bed> {
-    let parameters = TableParameters::from_toml(crate::shipped::table(preset)?).ok()?;
+    let parameters = parameters(preset)?;
     Some(Bed { length_m: parameters.length_m, width_m: parameters.width_m })
 }
 
@@ -213,6 +222,12 @@ fn players(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
         }
         if player.kind == PlayerKind::Paper && scene.table.is_none() {
             return wrong("a computer player aims at pockets", "write a section [table]");
+        }
+        let is_pocketless = scene.table.as_ref().is_some_and(|table| !has_pockets(&table.preset));
+        if player.kind == PlayerKind::Paper && is_pocketless {
+            let allowed = "a computer player aims at pockets, and this table has none";
+            let fix = "write kind = \"human\", or a table with pockets such as pool-9ft";
+            return wrong(allowed, fix);
         }
         if scene.players[..i].iter().any(|other| other.name == player.name) {
             let allowed = "another player has this name already";

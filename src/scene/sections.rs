@@ -292,10 +292,11 @@ fn box_section(section: &Section<'_>) -> Result<BoxSection, SceneError> {
 
 fn balls(section: &Section<'_>) -> Result<BallsSection, SceneError> {
     section.allow(&["rack"])?;
-    let racks: [(&[&str], RackKind); 3] = [
+    let racks: [(&[&str], RackKind); 4] = [
         (&["eight-ball"], RackKind::EightBall),
         (&["nine-ball"], RackKind::NineBall),
         (&["snooker"], RackKind::Snooker),
+        (&["carom"], RackKind::Carom),
     ];
     match section.choice("rack", &racks)? {
         Some(rack) => Ok(BallsSection { rack, line: section.line() }),

@@ -1,4 +1,4 @@
-//! The numbers that make a pool table, and what they may be.
+//! The numbers that make a table with or without pockets, and what they may be.
 //!
 //! One set of numbers makes everything: the faces that balls touch, the pockets that players aim
 //! at, and the picture. The shipped set stands in `config/tables`, each number with its source.
@@ -22,14 +22,16 @@ fn with_line(text: &str, error: &toml::de::Error) -> String {
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Marks {
-    /// Head string, head spot, foot spot, and the eighteen sights on the rails.
+    /// Head string, head spot, foot spot, and the sights on the rails.
     #[default]
     Pool,
     /// Baulk line, D and six spots; no sights.
     Snooker,
+    /// Five spots, and the sights on the rails.
+    Carom,
 }
 
-/// Dimensions of a pool table. Heights are above the cloth unless the name says otherwise.
+/// Dimensions of a table. Heights are above the cloth unless the name says otherwise.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableParameters {
@@ -60,9 +62,11 @@ pub struct TableParameters {
     pub rail_edge_radius_m: f64,
     /// Rounding of the table's outline in plan, at its four corners [m].
     pub outer_corner_radius_m: f64,
-    /// Rounding of the slate's edge in a pocket [m].
+    /// Rounding of the slate's edge in a pocket [m]; 0 without pockets.
+    #[serde(default)]
     pub drop_radius_m: f64,
-    /// Bottom of the pockets below the cloth [m].
+    /// Bottom of the pockets below the cloth [m]; 0 without pockets.
+    #[serde(default)]
     pub pocket_depth_m: f64,
     /// Underside of the frame below the cloth [m].
     pub body_depth_m: f64,
@@ -78,10 +82,10 @@ pub struct TableParameters {
     /// Width of a diamond, along the rail [m].
     #[serde(default)]
     pub diamond_width_m: f64,
-    /// The four pockets in the corners.
-    pub corner: PocketParameters,
+    /// The four pockets in the corners; a table has both kinds or neither.
+    pub corner: Option<PocketParameters>,
     /// The two pockets in the middle of the long rails.
-    pub side: PocketParameters,
+    pub side: Option<PocketParameters>,
 }
 
 /// Dimensions of a pocket.
@@ -109,6 +113,11 @@ impl TableParameters {
         Ok(parameters)
     }
 
+    /// The pockets in the corners and in the middle of the long rails, on a table that has any.
+    pub fn pockets(&self) -> Option<[&PocketParameters; 2]> {
+        Some([self.corner.as_ref()?, self.side.as_ref()?])
+    }
+
     /// Height of the cushion's nose above the cloth [m].
     pub fn nose_height_m(&self) -> f64 {
         self.nose_height_per_ball_diameter * self.ball_diameter_m
@@ -124,8 +133,9 @@ impl TableParameters {
         0.5 * self.width_m + self.rail_width_m
     }
 
-    /// The middles of the eighteen sights, six on each long rail and three on each short one, with
-    /// the unit vector across the rail [m]. A snooker table has none.
+    /// The middles of the sights, seven on each long rail (six where there is a pocket in the
+    /// middle) and three on each short one, with the unit vector across the rail [m]. A snooker
+    /// table has none.
     pub(super) fn sights(&self) -> Vec<(DVec2, DVec2)> {
         if self.marks == Marks::Snooker {
             return Vec::new();
@@ -135,7 +145,11 @@ impl TableParameters {
         let pitch = self.diamond_pitch_m;
         let mut sights = Vec::new();
         for sign in [-1.0, 1.0] {
-            for k in [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0] {
+            let has_pocket = self.side.is_some();
+            for k in [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0] {
+                if k == 0.0 && has_pocket {
+                    continue;
+                }
                 sights.push((DVec2::new(k * pitch, sign * line.y), DVec2::Y));
             }
             for k in [-1.0, 0.0, 1.0] {
@@ -149,12 +163,6 @@ impl TableParameters {
     pub fn check(&self) -> Result<(), TableError> {
         let ball = self.ball_diameter_m;
         let nose = self.nose_height_m();
-        let within = |key: &str, value: f64, least: f64, most: f64| {
-            if least <= value && value <= most {
-                return Ok(());
-            }
-            Err(TableError::Parameter { key: key.to_owned(), value, least, most })
-        };
         within("length_m", self.length_m, 1.0, 5.0)?;
         within("width_m", self.width_m, 0.5, 3.0)?;
         within("bed_height_m", self.bed_height_m, self.body_depth_m, 2.0)?;
@@ -169,32 +177,43 @@ impl TableParameters {
         within("rail_edge_radius_m", self.rail_edge_radius_m, 0.001, 0.02)?;
         let corner_most = 0.8 * self.rail_width_m;
         within("outer_corner_radius_m", self.outer_corner_radius_m, 0.02, corner_most)?;
-        within("drop_radius_m", self.drop_radius_m, 0.001, 0.02)?;
-        let depth_least = ball + self.drop_radius_m;
-        within("pocket_depth_m", self.pocket_depth_m, depth_least, 0.5)?;
-        within("body_depth_m", self.body_depth_m, self.pocket_depth_m + 0.01, 1.0)?;
-        if self.marks == Marks::Pool {
-            within("diamond_pitch_m", self.diamond_pitch_m, 0.05, 0.2 * self.length_m)?;
-            let diamond_least = self.cushion_width_m + 0.5 * self.diamond_length_m;
-            within(
-                "diamond_from_nose_m",
-                self.diamond_from_nose_m,
-                diamond_least,
-                self.rail_width_m,
-            )?;
-            within("diamond_length_m", self.diamond_length_m, 0.001, 0.05)?;
-            within("diamond_width_m", self.diamond_width_m, 0.001, 0.05)?;
+        if self.corner.is_some() || self.side.is_some() {
+            within("drop_radius_m", self.drop_radius_m, 0.001, 0.02)?;
+            let depth_least = ball + self.drop_radius_m;
+            within("pocket_depth_m", self.pocket_depth_m, depth_least, 0.5)?;
         }
-        for (name, pocket, angle_least) in
-            [("corner", &self.corner, 136.0), ("side", &self.side, 92.0)]
+        within("body_depth_m", self.body_depth_m, self.pocket_depth_m.max(0.05) + 0.01, 1.0)?;
+        if self.marks != Marks::Snooker {
+            self.check_sights()?;
+        }
+        if self.corner.is_some() != self.side.is_some() {
+            return Err(TableError::HalfPocketed);
+        }
+        let pockets = self.pockets().into_iter().flatten();
+        for ((name, angle_least), pocket) in [("corner", 136.0), ("side", 92.0)].iter().zip(pockets)
         {
             let key = |field: &str| format!("{name}.{field}");
             within(&key("mouth_m"), pocket.mouth_m, 1.2 * ball, 4.0 * ball)?;
-            within(&key("cut_angle_deg"), pocket.cut_angle_deg, angle_least, 160.0)?;
+            within(&key("cut_angle_deg"), pocket.cut_angle_deg, *angle_least, 160.0)?;
             within(&key("back_draft_deg"), pocket.back_draft_deg, 0.0, 20.0)?;
             within(&key("shelf_m"), pocket.shelf_m, 0.0, 0.08)?;
             within(&key("radius_m"), pocket.radius_m, 0.7 * ball, 0.12)?;
         }
         Ok(())
     }
+
+    fn check_sights(&self) -> Result<(), TableError> {
+        within("diamond_pitch_m", self.diamond_pitch_m, 0.05, 0.2 * self.length_m)?;
+        let least = self.cushion_width_m + 0.5 * self.diamond_length_m;
+        within("diamond_from_nose_m", self.diamond_from_nose_m, least, self.rail_width_m)?;
+        within("diamond_length_m", self.diamond_length_m, 0.001, 0.05)?;
+        within("diamond_width_m", self.diamond_width_m, 0.001, 0.05)
+    }
+}
+
+fn within(key: &str, value: f64, least: f64, most: f64) -> Result<(), TableError> {
+    if least <= value && value <= most {
+        return Ok(());
+    }
+    Err(TableError::Parameter { key: key.to_owned(), value, least, most })
 }

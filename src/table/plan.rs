@@ -51,6 +51,8 @@ pub(super) struct Jaw {
     pub centre: DVec2,
     /// Radius of the pocket above the slate [m].
     pub radius: f64,
+    /// Radius of the vertical cut of the slate [m].
+    pub cut: f64,
 }
 
 impl Jaw {
@@ -116,25 +118,29 @@ pub(super) fn rim_radius(table: &TableParameters, pocket: &PocketParameters) -> 
 }
 
 /// Middle of the corner pocket in plan, in the quarter x > 0, y > 0 [m].
-pub(super) fn corner_centre(table: &TableParameters) -> DVec2 {
+pub(super) fn corner_centre(table: &TableParameters, corner: &PocketParameters) -> DVec2 {
     let noses = 0.5 * DVec2::new(table.length_m, table.width_m);
-    let cut = table.corner.mouth_m * 0.5f64.sqrt();
-    let depth = (table.corner.shelf_m + table.corner.radius_m) * 0.5f64.sqrt();
+    let cut = corner.mouth_m * 0.5f64.sqrt();
+    let depth = (corner.shelf_m + corner.radius_m) * 0.5f64.sqrt();
     noses + DVec2::splat(depth - 0.5 * cut)
 }
 
 /// Middle of the side pocket in plan, at y > 0 [m].
-pub(super) fn side_centre(table: &TableParameters) -> DVec2 {
-    DVec2::new(0.0, 0.5 * table.width_m + table.side.shelf_m + table.side.radius_m)
+pub(super) fn side_centre(table: &TableParameters, side: &PocketParameters) -> DVec2 {
+    DVec2::new(0.0, 0.5 * table.width_m + side.shelf_m + side.radius_m)
 }
 
 impl Plan {
-    /// Draws the plan; `None` if its lines do not meet.
-    pub fn new(table: &TableParameters, detail: &Detail) -> Option<Plan> {
+    /// Draws the plan of a table with pockets; `None` if its lines do not meet.
+    pub fn new(
+        table: &TableParameters,
+        [corner, side]: [&PocketParameters; 2],
+        detail: &Detail,
+    ) -> Option<Plan> {
         let noses = 0.5 * DVec2::new(table.length_m, table.width_m);
-        let corner_centre = corner_centre(table);
-        let side_centre = side_centre(table);
-        let cut = table.corner.mouth_m * 0.5f64.sqrt();
+        let corner_centre = corner_centre(table, corner);
+        let side_centre = side_centre(table, side);
+        let cut = corner.mouth_m * 0.5f64.sqrt();
         let jaw = |pocket: &PocketParameters, tip: f64, centre: DVec2| Jaw {
             tip,
             nose: table.nose_height_m(),
@@ -142,14 +148,12 @@ impl Plan {
             draft: libm::tan(pocket.back_draft_deg.to_radians()),
             centre,
             radius: rim_radius(table, pocket),
+            cut: pocket.radius_m,
         };
         let from_corner = corner_centre - noses;
-        let long_corner =
-            jaw(&table.corner, noses.x - cut, DVec2::new(corner_centre.x, from_corner.y));
-        let foot_corner =
-            jaw(&table.corner, noses.y - cut, DVec2::new(corner_centre.y, from_corner.x));
-        let long_side =
-            jaw(&table.side, -0.5 * table.side.mouth_m, DVec2::new(0.0, side_centre.y - noses.y));
+        let long_corner = jaw(corner, noses.x - cut, DVec2::new(corner_centre.x, from_corner.y));
+        let foot_corner = jaw(corner, noses.y - cut, DVec2::new(corner_centre.y, from_corner.x));
+        let long_side = jaw(side, -0.5 * side.mouth_m, DVec2::new(0.0, side_centre.y - noses.y));
 
         let (mut profile, top_z0, top_slope) = nose_profile(table, detail);
         // The top cloth gets a line where each jaw meets its pocket's cylinder: there the facing
@@ -179,7 +183,10 @@ impl Plan {
 
 /// The cross section from the foot to the end of the nose's rounding, and the line z = z0 + slope v
 /// of the top cloth. The rounding touches both flat parts without a kink.
-fn nose_profile(table: &TableParameters, detail: &Detail) -> (Vec<ProfilePoint>, f64, f64) {
+pub(super) fn nose_profile(
+    table: &TableParameters,
+    detail: &Detail,
+) -> (Vec<ProfilePoint>, f64, f64) {
     let radius = table.nose_radius_m;
     let centre = DVec2::new(radius, table.nose_height_m());
     // A line from `point` that touches the circle: its normal makes the angle with the line to the

@@ -39,14 +39,8 @@ pub(super) struct Rim {
 
 impl Rim {
     /// The rim of the corner pocket.
-    pub fn corner(
-        table: &TableParameters,
-        plan: &Plan,
-        detail: &Detail,
-        foot: &End,
-        long: &End,
-    ) -> Rim {
-        let mut rim = Rim::bare(table, Hole::Corner, plan);
+    pub fn corner(plan: &Plan, detail: &Detail, foot: &End, long: &End) -> Rim {
+        let mut rim = Rim::bare(Hole::Corner, plan);
         let turn = 2.0 * core::f64::consts::PI;
         let (start, end) = (foot.back[foot.back.len() - 1], long.back[long.back.len() - 1]);
         let (a, b) = (rim.angle(start), rim.angle(end));
@@ -65,7 +59,7 @@ impl Rim {
 
     /// The half of the side pocket's rim with x ≥ 0.
     pub fn side(table: &TableParameters, plan: &Plan, detail: &Detail, long: &End) -> Rim {
-        let mut rim = Rim::bare(table, Hole::Side, plan);
+        let mut rim = Rim::bare(Hole::Side, plan);
         let half_turn = core::f64::consts::PI;
         let on_axis = |y: f64, z: f64| DVec3::new(0.0, rim.centre.y + y * rim.radius, z);
         let (front, behind) = (on_axis(-1.0, 0.0), on_axis(1.0, 0.0));
@@ -83,19 +77,17 @@ impl Rim {
         rim
     }
 
-    fn bare(table: &TableParameters, hole: Hole, plan: &Plan) -> Rim {
+    fn bare(hole: Hole, plan: &Plan) -> Rim {
         let quarter_turn = core::f64::consts::FRAC_PI_2;
-        let (centre, jaw, cut, heading) = match hole {
-            Hole::Corner => {
-                (plan.corner_centre, &plan.long_corner, table.corner.radius_m, 0.5 * quarter_turn)
-            }
-            Hole::Side => (plan.side_centre, &plan.long_side, table.side.radius_m, quarter_turn),
+        let (centre, jaw, heading) = match hole {
+            Hole::Corner => (plan.corner_centre, &plan.long_corner, 0.5 * quarter_turn),
+            Hole::Side => (plan.side_centre, &plan.long_side, quarter_turn),
         };
         Rim {
             hole,
             centre,
             radius: jaw.radius,
-            cut,
+            cut: jaw.cut,
             heading,
             front: Vec::new(),
             back: Vec::new(),

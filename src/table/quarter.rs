@@ -4,9 +4,10 @@
 //! quarter and its three mirror images are joined. Open are only its cuts at x = 0 and y = 0.
 
 use super::flat::{Candidate, fill, grid};
-use super::parameters::TableParameters;
+use super::parameters::{PocketParameters, TableParameters};
 use super::plan::{Detail, Jaw, Plan};
 use super::pocket::{self, Rim};
+use super::pocketless;
 use glam::{DVec2, DVec3};
 
 /// Which pocket of the quarter.
@@ -164,7 +165,18 @@ impl End {
 
 /// Builds the quarter; `None` if its lines cross.
 pub(super) fn quarter(table: &TableParameters, detail: &Detail) -> Option<Body> {
-    let plan = Plan::new(table, detail)?;
+    match table.pockets() {
+        Some(pockets) => pocketed(table, pockets, detail),
+        None => pocketless::quarter(table, detail),
+    }
+}
+
+fn pocketed(
+    table: &TableParameters,
+    pockets: [&PocketParameters; 2],
+    detail: &Detail,
+) -> Option<Body> {
+    let plan = Plan::new(table, pockets, detail)?;
     let noses = 0.5 * DVec2::new(table.length_m, table.width_m);
     let long = |p: DVec3| DVec3::new(p.x, noses.y + p.y, p.z);
     let foot = |p: DVec3| DVec3::new(noses.x + p.y, p.x, p.z);
@@ -188,15 +200,27 @@ pub(super) fn quarter(table: &TableParameters, detail: &Detail) -> Option<Body> 
     facing(&mut body, Part::LongCushion, &long_corner, plan.corner_centre)?;
     facing(&mut body, Part::FootCushion, &foot_corner, plan.corner_centre)?;
 
-    let corner = Rim::corner(table, &plan, detail, &foot_corner, &long_corner);
+    let corner = Rim::corner(&plan, detail, &foot_corner, &long_corner);
     let side = Rim::side(table, &plan, detail, &long_side);
     for rim in [&corner, &side] {
         pocket::build(&mut body, table, detail, rim)?;
     }
-    let foot_line = (&foot_lines[0][..], &long_lines[0][..]);
-    bed(&mut body, detail, foot_line, [&long_side, &long_corner, &foot_corner], [&corner, &side])?;
+    // Up the foot rail, round the corner pocket, back along the long rail, round the side pocket.
+    let mut edge = foot_lines[0].clone();
+    edge.extend_from_slice(&foot_corner.lower[1..]);
+    edge.extend_from_slice(&corner.front[1..]);
+    edge.extend(long_corner.lower.iter().rev().skip(1));
+    edge.extend(long_lines[0].iter().rev().skip(1));
+    edge.extend_from_slice(&long_side.lower[1..]);
+    edge.extend(side.front.iter().rev().skip(1));
+    bed(&mut body, detail, &edge, &[&corner, &side])?;
+    // Along pockets and cushions from x = 0 to y = 0.
     let last = plan.profile.len() - 1;
-    frame(&mut body, table, detail, (&foot_lines[last], &long_lines[last]), [&corner, &side])?;
+    let mut inner = side.wood.clone();
+    inner.extend(long_lines[last].iter().skip(1));
+    inner.extend(corner.wood.iter().rev().skip(1));
+    inner.extend(foot_lines[last].iter().rev().skip(1));
+    frame(&mut body, table, detail, &inner, &[&corner, &side])?;
     Some(body)
 }
 
@@ -210,16 +234,22 @@ fn cushion(
 ) -> Vec<Vec<DVec3>> {
     let count = count(start[0], end[0], grid_m);
     let lines: Vec<Vec<DVec3>> = start.iter().zip(end).map(|(a, b)| steps(*a, *b, count)).collect();
+    sweep(body, part, &lines);
+    lines
+}
+
+/// Joins the lines of a cushion, each of equally many points, to its surface.
+pub(super) fn sweep(body: &mut Body, part: Part, lines: &[Vec<DVec3>]) {
+    let [first, .., last] = lines else { return };
+    let (foot, wood, end) = (first[0], last[0], first[first.len() - 1]);
     // A line inside the rubber, seen from which the whole profile faces outward.
-    let wood = start[start.len() - 1];
-    let core_point = (start[0] + wood) * 0.5;
+    let core_point = (foot + wood) * 0.5;
     let core = DVec3::new(core_point.x, core_point.y, 0.9 * wood.z);
-    let along = (end[0] - start[0]) * DVec3::new(1.0, 1.0, 0.0);
+    let along = (end - foot) * DVec3::new(1.0, 1.0, 0.0);
     let axis = if along.x.abs() > along.y.abs() { DVec3::X } else { DVec3::Y };
     for pair in lines.windows(2) {
         body.strip(|_| part, &pair[0], &pair[1], |p| (p - core).reject_from_normalized(axis));
     }
-    lines
 }
 
 /// The facing of a jaw: flat, between the end of the cushion and the wall of the pocket.
@@ -241,36 +271,20 @@ fn facing(body: &mut Body, part: Part, end: &End, pocket_centre: DVec2) -> Optio
     body.sheet(part, &boundary, &grid(&flat, 0.015), lift, |_| normal_out)
 }
 
-/// The cloth between the feet of the cushions and the rims of the pockets.
-fn bed(
-    body: &mut Body,
-    detail: &Detail,
-    (foot_line, long_line): (&[DVec3], &[DVec3]),
-    [long_side, long_corner, foot_corner]: [&End; 3],
-    [corner, side]: [&Rim; 2],
-) -> Option<()> {
+/// The cloth inside `edge`, which runs from y = 0 round to x = 0 along the feet of the cushions and
+/// the rims of the pockets.
+pub(super) fn bed(body: &mut Body, detail: &Detail, edge: &[DVec3], rims: &[&Rim]) -> Option<()> {
     let step = detail.grid_m;
-    let on_y0 = foot_line[0];
-    let on_x0 = side.front[0];
-    let x_axis = grid_line(DVec3::ZERO, on_y0, step);
-    let y_axis = grid_line(DVec3::ZERO, on_x0, step);
-    let mut points = x_axis;
-    points.pop();
-    // Up the foot rail, round the corner pocket, back along the long rail, round the side pocket.
-    points.extend_from_slice(foot_line);
-    points.extend_from_slice(&foot_corner.lower[1..]);
-    points.extend_from_slice(&corner.front[1..]);
-    points.extend(long_corner.lower.iter().rev().skip(1));
-    points.extend(long_line.iter().rev().skip(1));
-    points.extend_from_slice(&long_side.lower[1..]);
-    points.extend(side.front.iter().rev().skip(1));
-    points.extend(y_axis.iter().rev().skip(1));
+    let (on_y0, on_x0) = (*edge.first()?, *edge.last()?);
+    let mut points = grid_line(DVec3::ZERO, on_y0, step);
+    points.extend(edge.iter().skip(1));
+    points.extend(grid_line(DVec3::ZERO, on_x0, step).iter().rev().skip(1));
     points.pop();
 
     let boundary: Vec<(DVec3, DVec2)> = points.iter().map(|p| (*p, p.truncate())).collect();
     let flat: Vec<DVec2> = boundary.iter().map(|(_, p)| *p).collect();
     let mut candidates = grid(&flat, step);
-    for rim in [corner, side] {
+    for rim in rims {
         candidates.extend(rim.around(0.012, 0.012));
         candidates.extend(rim.around(0.035, 0.028));
     }
@@ -291,13 +305,13 @@ fn grid_line(a: DVec3, b: DVec3, step: f64) -> Vec<DVec3> {
     points
 }
 
-/// Rails, outer side and underside.
-fn frame(
+/// Rails, outer side and underside. `inner` is the inner edge of the rails, from x = 0 to y = 0.
+pub(super) fn frame(
     body: &mut Body,
     table: &TableParameters,
     detail: &Detail,
-    (foot_line, long_line): (&[DVec3], &[DVec3]),
-    [corner, side]: [&Rim; 2],
+    inner: &[DVec3],
+    rims: &[&Rim],
 ) -> Option<()> {
     let edge = table.rail_edge_radius_m;
     let top = table.rail_height_m;
@@ -313,10 +327,10 @@ fn frame(
     // The rail ends where the slate lies; below it the frame.
     rows.push(outline(table, detail, 0.0, -0.055_f64.min(0.5 * table.body_depth_m)));
     rows.push(outline(table, detail, 0.0, -table.body_depth_m));
-    let inner = DVec2::new(table.outer_x_m(), table.outer_y_m())
+    let bend = DVec2::new(table.outer_x_m(), table.outer_y_m())
         - DVec2::splat(table.outer_corner_radius_m);
     let outward = |p: DVec3| {
-        let core = p.truncate().min(inner).extend(p.z.min(top - edge));
+        let core = p.truncate().min(bend).extend(p.z.min(top - edge));
         p - core
     };
     for (k, pair) in rows.windows(2).enumerate() {
@@ -328,16 +342,13 @@ fn frame(
     // along pockets and cushions.
     let first = &rows[0];
     let (out_y0, out_x0) = (first[0], first[first.len() - 1]);
-    let (wood_y0, back_x0) = (foot_line[0], side.wood[0]);
+    let (back_x0, wood_y0) = (*inner.first()?, *inner.last()?);
     let mut points = steps(wood_y0, out_y0, count(wood_y0, out_y0, step));
     points.extend(first.iter().skip(1));
     points.extend(steps(out_x0, back_x0, count(out_x0, back_x0, step)).iter().skip(1));
-    points.extend(side.wood.iter().skip(1));
-    points.extend(long_line.iter().skip(1));
-    points.extend(corner.wood.iter().rev().skip(1));
-    points.extend(foot_line.iter().rev().skip(1));
+    points.extend(inner.iter().skip(1));
     points.pop();
-    flat_part(body, Part::RailTop, &points, DVec3::Z, step, &[corner, side])?;
+    flat_part(body, Part::RailTop, &points, DVec3::Z, step, rims)?;
 
     let last = &rows[rows.len() - 1];
     let (out_y0, out_x0) = (last[0], last[last.len() - 1]);

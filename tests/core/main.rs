@@ -5,6 +5,8 @@
 
 /// The computer player: planning, cue motion, turn states.
 mod ai;
+/// Carom: a table without pockets, a cue ball for each player.
+mod carom;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
@@ -38,6 +40,8 @@ mod report;
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.
 mod scene;
+/// Tables and balls of right scenes.
+mod scene_built;
 /// Snooker: its spots, what can be seen, its table, and what follows from choices.
 mod snooker;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.

@@ -3,7 +3,7 @@
 
 use hapticbillard::events::{
     BallInHand, ByPlayer, Call, CallKind, Choice, Command, Event, Fact, Foul, Racked, ShotKind,
-    Source, Turn, TurnAfter, Verdict,
+    Source, Spotting, Turn, TurnAfter, Verdict,
 };
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::rules::{GameKind, Language, Phase, Referee, State, Texts, game};
@@ -46,6 +46,11 @@ fn shot(referee: &mut Referee, between: &[&str]) -> Said {
     let texts = std::iter::once(tip).chain(between.iter().copied()).chain([settle]);
     let facts: Vec<Fact> = texts.map(|text| serde_json::from_str(text).unwrap()).collect();
     said(facts.iter().flat_map(|fact| referee.handle(fact)))
+}
+
+fn spotted(ball: u16) -> Command {
+    let balls = balls([ball]).collect();
+    Command::SpotBalls(Spotting { balls, cue_ball: BallId::CUE })
 }
 
 fn call(referee: &mut Referee, call: Call) -> bool {
@@ -92,7 +97,7 @@ fn a_push_out_is_announced_once_and_the_other_player_chooses() {
 
         let pushed = shot(&mut referee, &[HIT_7, NINE]);
         assert!(pushed.verdict.legal);
-        let spot = Command::SpotBalls(balls([9]).collect());
+        let spot = spotted(9);
         assert_eq!(pushed.commands, [spot], "the 9 lies before anybody chooses");
         let turn = pushed.turn.unwrap();
         assert_eq!(turn.player, PlayerId::ONE);
@@ -176,7 +181,7 @@ fn the_eight_off_the_table_on_the_break_is_back_before_the_choice() {
         let mut referee = started(GameKind::WpaEightBall);
         let off = r#"{"t":3,"e":"off","ball":"8"}"#;
         let foul = shot(&mut referee, &[HIT_1, off]);
-        assert_eq!(foul.commands, [Command::SpotBalls(balls([8]).collect())]);
+        assert_eq!(foul.commands, [spotted(8)]);
         let next = choose(&mut referee, choice);
         assert!(next.commands.is_empty());
         assert!(next.turn.unwrap().on_table.contains(&BallId::EIGHT));
@@ -191,7 +196,7 @@ fn the_eight_that_fell_on_the_break_returns_by_choice() {
     assert!(fell.commands.is_empty());
     assert!(!fell.turn.unwrap().on_table.contains(&BallId::EIGHT));
     let next = choose(&mut referee, Choice::Respot8Continue);
-    assert_eq!(next.commands, [Command::SpotBalls(balls([8]).collect())]);
+    assert_eq!(next.commands, [spotted(8)]);
     let turn = next.turn.unwrap();
     assert_eq!((turn.player, turn.on_table.len()), (PlayerId::ONE, 15));
 }
@@ -277,7 +282,7 @@ fn a_breaking_foul_is_accepted_or_the_same_player_breaks_again() {
         let mut referee = started(GameKind::Straight);
         let foul = shot(&mut referee, &[HIT_1, &down(4), SCRATCH]);
         assert_eq!(foul.verdict.fouls.as_slice(), [Foul::Scratch, Foul::IllegalBreak]);
-        assert_eq!(foul.commands, [Command::SpotBalls(balls([4]).collect())]);
+        assert_eq!(foul.commands, [spotted(4)]);
         assert_eq!(foul.turn.unwrap().player, PlayerId::TWO);
         let next = choose(&mut referee, choice);
         assert_eq!(next.commands.len(), usize::from(shot_kind == ShotKind::Break));

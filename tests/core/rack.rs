@@ -119,7 +119,10 @@ fn overlapping_balls_are_named_with_their_depth() {
 fn spotted_ball_goes_behind_and_then_before_the_spot() {
     let bed = Bed { length_m: 2.54, width_m: 1.27 };
     let r = POOL_RADIUS_M;
-    let spot = |balls: &[DVec2]| spot_position(&bed, balls.iter().map(|p| (*p, r)), r);
+    let spot = |balls: &[DVec2]| {
+        let occupied: Vec<_> = balls.iter().map(|p| (BallId::EIGHT, *p, r)).collect();
+        spot_position(&bed, &occupied, r)
+    };
     let foot = bed.foot_spot();
     assert_eq!(spot(&[]), foot);
     let behind = spot(&[foot]);

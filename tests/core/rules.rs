@@ -2,8 +2,8 @@
 
 use hapticbillard::ball::{BallPlace, BallState, Motion};
 use hapticbillard::events::{
-    BallInHand, Command, Event, Fact, Foul, Group, Groups, ShotKind, Source, Stamp, Stamped, Topic,
-    Turn, TurnAfter, Verdict,
+    BallInHand, Command, Event, Fact, Foul, Group, Groups, ShotKind, Source, Spotting, Stamp,
+    Stamped, Topic, Turn, TurnAfter, Verdict,
 };
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId};
@@ -18,7 +18,7 @@ use serde_json::json;
 use std::sync::Arc;
 
 /// Scenarios of the rule book, a file per game and more.
-const FILES: [&str; 7] = [
+const FILES: [&str; 9] = [
     include_str!("data/rules/paper_eight_ball.json"),
     include_str!("data/rules/paper_eight_ball_more.json"),
     include_str!("data/rules/wpa_eight_ball.json"),
@@ -26,6 +26,8 @@ const FILES: [&str; 7] = [
     include_str!("data/rules/wpa_nine_ball.json"),
     include_str!("data/rules/straight.json"),
     include_str!("data/rules/snooker.json"),
+    include_str!("data/rules/three_cushion.json"),
+    include_str!("data/rules/free_carom.json"),
 ];
 
 #[test]
@@ -217,7 +219,8 @@ fn the_eight_is_spotted_between_verdict_and_turn() {
         ],
     );
     assert_eq!(said.len(), 3);
-    let spot = Event::Command(Command::SpotBalls(std::iter::once(BallId::EIGHT).collect()));
+    let balls = std::iter::once(BallId::EIGHT).collect();
+    let spot = Event::Command(Command::SpotBalls(Spotting { balls, cue_ball: BallId::CUE }));
     assert_eq!(said[1], spot);
     let next = turn(&said[2]);
     assert_eq!((next.player, next.shot, next.shot_number), (PlayerId::ONE, ShotKind::Normal, 2));

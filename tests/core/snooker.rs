@@ -4,8 +4,8 @@ use crate::geometry::closest_point;
 use glam::{DVec2, DVec3};
 use hapticbillard::ball::{Ball, BallPlace, BallState, SNOOKER_RADIUS_M};
 use hapticbillard::events::{
-    BallInHand, BallOn, Choice, Command, Event, Fact, FactKind, FactSet, Source, Stamp, Stamped,
-    Turn, Verdict, Zone,
+    BallInHand, BallOn, Choice, Command, Event, Fact, FactKind, FactSet, Source, Spotting, Stamp,
+    Stamped, Turn, Verdict, Zone,
 };
 use hapticbillard::ids::{BallId, GameKind, PlayerId};
 use hapticbillard::mesh::Surface;
@@ -35,8 +35,12 @@ fn own(ball: BallId) -> DVec2 {
 }
 
 fn place(ball: BallId, occupied: &[DVec2]) -> DVec2 {
-    let occupied: Vec<_> = occupied.iter().map(|at| (*at, R)).collect();
-    Spots::Snooker.place(&BED, ball, &occupied, R)
+    let occupied: Vec<_> = occupied.iter().map(|at| (BallId(1), *at, R)).collect();
+    Spots::Snooker.place(&BED, ball, BallId::CUE, &occupied, R)
+}
+
+fn spot<const N: usize>(balls: [BallId; N]) -> Command {
+    Command::SpotBalls(Spotting { balls: balls.into_iter().collect(), cue_ball: BallId::CUE })
 }
 
 /// WPBSA: the numbers of the rules, in millimetres, to the rounding of the inch.
@@ -112,7 +116,7 @@ fn a_colour_without_a_spot_lies_towards_the_top_cushion_or_else_away_from_it() {
 #[test]
 fn colours_with_free_spots_are_spotted_first_then_the_highest() {
     let order = |balls: &[BallId], occupied: &[DVec2]| {
-        let occupied: Vec<_> = occupied.iter().map(|at| (*at, R)).collect();
+        let occupied: Vec<_> = occupied.iter().map(|at| (BallId(1), *at, R)).collect();
         Spots::Snooker.in_order(&BED, balls, &occupied, R).to_vec()
     };
     assert_eq!(order(&[YELLOW, BLACK, BLUE], &[]), [BLACK, BLUE, YELLOW]);
@@ -140,8 +144,7 @@ fn both_solvers_spot_colours_by_the_rule() {
         ];
         let settings = PhysicsSettings { solver, ..PhysicsSettings::default() };
         let mut simulation = Simulation::from_parts(&table, balls, &settings).unwrap();
-        let spot = [BLACK, PINK, YELLOW].into_iter().collect();
-        simulation.apply(0.0, &Command::SpotBalls(spot)).unwrap();
+        simulation.apply(0.0, &spot([BLACK, PINK, YELLOW])).unwrap();
         simulation.advance(0.1, FactSet::NONE, &mut Vec::new()).unwrap();
         let at = |id| simulation.sample(id, 0.1).unwrap().position.truncate();
         assert_eq!(at(PINK), own(PINK), "{solver:?}");
@@ -263,8 +266,7 @@ const BLACK_FELL: &str = r#"{"t":2,"e":"pocket","ball":"21","pocket":"FL"}"#;
 fn colours_are_spotted_before_the_choice() {
     let mut referee = started(on_table([1, 2, 16, 17, 18, 19, 20, 21]));
     let said = shot(&mut referee, &[MISS, BLACK_FELL]);
-    let spot = Command::SpotBalls([BLACK].into_iter().collect());
-    assert_eq!(said[1], Event::Command(spot));
+    assert_eq!(said[1], Event::Command(spot([BLACK])));
     assert!(turn(&said).on_table.contains(&BLACK));
     assert_eq!(referee.phase(), Phase::Choosing);
 }

@@ -279,14 +279,17 @@ fn tables_of_other_sizes_close_too() {
     let regulation = TableParameters::from_toml(text).unwrap();
     let eight_foot = TableParameters { length_m: 2.3368, width_m: 1.1684, ..regulation.clone() };
     let mut tight = regulation.clone();
-    (tight.corner.mouth_m, tight.corner.shelf_m) = (0.105, 0.05);
+    let corner = tight.corner.as_mut().unwrap();
+    (corner.mouth_m, corner.shelf_m) = (0.105, 0.05);
     for parameters in [eight_foot, tight] {
         let table = Table::from_parameters("other", parameters).unwrap();
         assert_eq!(table.mesh.open_edges(), []);
         assert_eq!(table.pockets.len(), 6);
     }
+    let half = TableParameters { side: None, ..regulation.clone() };
+    assert_eq!(half.check(), Err(TableError::HalfPocketed));
     let mut broken = regulation;
-    broken.side.cut_angle_deg = 60.0;
+    broken.side.as_mut().unwrap().cut_angle_deg = 60.0;
     assert!(matches!(
         Table::from_parameters("broken", broken),
         Err(TableError::Parameter { key, value: 60.0, .. }) if key == "side.cut_angle_deg"

@@ -92,9 +92,10 @@ impl Swarm {
                 speed_m_s: 0.0,
             },
             6 => FactKind::BallOffTable { ball: cue_or_ball },
-            7 => match rng.random_bool(0.5) {
-                true => FactKind::HeadStringCrossed { ball: cue_or_ball },
-                false => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
+            7 => match rng.random_range(0..3) {
+                0 => FactKind::HeadStringCrossed { ball: cue_or_ball },
+                1 => FactKind::BallTouched { ball: cue_or_ball, by: TouchedBy::Hand },
+                _ => FactKind::BallsFrozen { a: ball, b: BallId(rng.random_range(0..3)) },
             },
             _ => FactKind::Settled {
                 snookered: rng.random_bool(0.3),

@@ -70,6 +70,13 @@ fn check_corners(kind: GameKind, tally: &Tally) {
             met("points", tally.points, 100);
             met("spotted", tally.spotted, 100);
         }
+        GameKind::ThreeCushion | GameKind::FreeCarom => {
+            met("fouls", tally.fouls, 100);
+            met("wins", tally.wins, 10);
+            met("points", tally.points, 100);
+            met("spotted", tally.spotted, 100);
+            met("choices", tally.choices, 10);
+        }
         GameKind::WpaEightBall => {
             met("fouls", tally.fouls, 100);
             met("wins", tally.wins, 10);

@@ -14,6 +14,7 @@ impl Human {
             strength_m_s: self.strength_m_s,
             help: self.help,
             is_practice: self.is_practice,
+            cue_ball: self.cue_ball(),
             ..HumanView::default()
         };
         match &self.stage {

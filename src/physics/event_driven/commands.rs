@@ -1,13 +1,15 @@
 //! Commands: what a player or the rules want done.
 
+use super::body::Body;
 use super::segment::Segment;
 use super::tip::Tip;
 use super::{EventDriven, Lie, Order};
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
+use crate::rack::Occupied;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -18,8 +20,8 @@ impl EventDriven {
         checks::check_command(at, command)?;
         let unknown = match command {
             Command::PlaceBall { ball, .. } => self.index(*ball).is_none().then_some(*ball),
-            Command::SpotBalls(balls) => {
-                balls.iter().copied().find(|ball| self.index(*ball).is_none())
+            Command::SpotBalls(spotting) => {
+                spotting.balls.iter().copied().find(|ball| self.index(*ball).is_none())
             }
             _ => None,
         };
@@ -41,7 +43,7 @@ impl EventDriven {
             Command::PlaceBall { ball, position_m, zone } => {
                 self.place_ball(at, *ball, *position_m, *zone);
             }
-            Command::SpotBalls(balls) => self.spot_balls(at, balls),
+            Command::SpotBalls(spotting) => self.spot_balls(at, spotting),
             Command::Undo => {
                 if let Some(lies) = self.memory.take_back() {
                     self.lay_all(at, &lies);
@@ -152,23 +154,26 @@ impl EventDriven {
         self.wake_neighbours(at, &[index]);
     }
 
-    /// Puts balls back on their spots, or as near as there is room.
-    fn spot_balls(&mut self, at: Seconds, balls: &[BallId]) {
+    /// Puts balls back on their spots, or where they belong if there is no room.
+    fn spot_balls(&mut self, at: Seconds, Spotting { balls, cue_ball }: &Spotting) {
         let (Some(bed), spots) = (self.terrain.bed, self.terrain.spots) else { return };
         let Some(first) = balls.first().and_then(|ball| self.index(*ball)) else { return };
         let radius = self.bodies[first].ball.radius_m;
         for ball in spots.in_order(&bed, balls, &self.occupied(at, balls), radius) {
             let Some(index) = self.index(ball) else { continue };
             let radius = self.bodies[index].ball.radius_m;
-            let place = spots.place(&bed, ball, &self.occupied(at, &[ball]), radius);
+            let place = spots.place(&bed, ball, *cue_ball, &self.occupied(at, &[ball]), radius);
             self.put_down(at, index, place);
         }
     }
 
-    /// Places and radii of the solid balls but these [m].
-    fn occupied(&self, at: Seconds, without: &[BallId]) -> Vec<(DVec2, f64)> {
+    /// The solid balls but these.
+    fn occupied(&self, at: Seconds, without: &[BallId]) -> Vec<Occupied> {
         let others =
             self.bodies.iter().filter(|body| body.solid() && !without.contains(&body.ball.id));
-        others.map(|body| (body.segment.position_at(at).truncate(), body.ball.radius_m)).collect()
+        let lies = |body: &Body| {
+            (body.ball.id, body.segment.position_at(at).truncate(), body.ball.radius_m)
+        };
+        others.map(lies).collect()
     }
 }

@@ -10,7 +10,7 @@ use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Ledger, racks, tolerance};
+use crate::physics::{Ledger, checks, racks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -223,6 +223,11 @@ impl EventDriven {
             tip.cue.has_struck = false;
         }
         self.memory.end();
+        let lies = |body: &Body| (body.ball.id, body.segment.position_at(at), body.ball.radius_m);
+        let solid = self.bodies.iter().filter(|body| body.solid());
+        for (a, b) in checks::frozen_pairs(solid.map(lies).collect()) {
+            self.tell(at, FactKind::BallsFrozen { a, b });
+        }
         let lies = |body: &Body| (body.ball.id, body.in_play(), body.segment.position_at(at));
         let bed = self.terrain.bed.as_ref();
         let cue_in_rack = racks::cue_in_rack(bed, self.bodies.iter().map(lies));

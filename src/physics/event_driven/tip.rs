@@ -8,8 +8,7 @@ use super::closing::{self, Relative};
 use super::segment::Segment;
 use super::swing_meets::STRETCHES;
 use crate::cue::{CuePath, CuePose};
-use crate::events::{FactKind, TouchedBy};
-use crate::ids::BallId;
+use crate::events::FactKind;
 use crate::physics::guided_cue::GuidedCue;
 use crate::physics::laws::cue_ball::{Cue, cue_contact};
 use crate::physics::{Parameters, PhysicsError, tolerance};
@@ -234,18 +233,13 @@ impl EventDriven {
         self.begin_shot(at);
         self.press_on_bed(at, index, &mut mover);
         self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
-        let kind = if ball == BallId::CUE {
-            let push = self.is_pushed(at, index, velocity_after);
-            FactKind::CueBallStruck {
-                ball,
-                push,
-                moving,
-                player: None,
-                position_m: point,
-                normal_speed_m_s: approach,
-            }
-        } else {
-            FactKind::BallTouched { ball, by: TouchedBy::Tip }
+        let kind = FactKind::CueBallStruck {
+            ball,
+            push: self.is_pushed(at, index, velocity_after),
+            moving,
+            player: None,
+            position_m: point,
+            normal_speed_m_s: approach,
         };
         self.tell(at, kind);
         if let Some(tip) = &mut self.tip {

@@ -5,9 +5,10 @@ use super::cue_motion::CueMotion;
 use super::{Due, FixedStep, Lie, Order, collect, weight_j};
 use crate::ball::BallPlace;
 use crate::cue::CuePath;
-use crate::events::{Command, FactKind, TouchedBy, Zone};
+use crate::events::{Command, FactKind, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
+use crate::rack::Occupied;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -20,8 +21,8 @@ impl FixedStep {
             Command::PlaceBall { ball, .. } if self.index(*ball).is_none() => {
                 Err(PhysicsError::UnknownBall(*ball))
             }
-            Command::SpotBalls(balls) => {
-                match balls.iter().find(|ball| self.index(**ball).is_none()) {
+            Command::SpotBalls(spotting) => {
+                match spotting.balls.iter().find(|ball| self.index(**ball).is_none()) {
                     Some(ball) => Err(PhysicsError::UnknownBall(*ball)),
                     None => Ok(()),
                 }
@@ -54,7 +55,7 @@ impl FixedStep {
                 Command::PlaceBall { ball, position_m, zone } => {
                     self.place_ball(ball, position_m, zone);
                 }
-                Command::SpotBalls(balls) => self.spot_balls(&balls),
+                Command::SpotBalls(spotting) => self.spot_balls(&spotting),
                 Command::Undo => {
                     if let Some(lies) = self.memory.take_back() {
                         self.lay_all(&lies);
@@ -166,23 +167,24 @@ impl FixedStep {
         self.touching.retain(|(a, b)| *a != index && *b != index);
     }
 
-    /// Puts balls back on their spots, or as near as there is room.
-    fn spot_balls(&mut self, balls: &[BallId]) {
+    /// Puts balls back on their spots, or where they belong if there is no room.
+    fn spot_balls(&mut self, Spotting { balls, cue_ball }: &Spotting) {
         let (Some(bed), spots) = (self.ground.bed, self.ground.spots) else { return };
         let Some(first) = balls.first().and_then(|ball| self.index(*ball)) else { return };
         let radius = self.bodies[first].ball.radius_m;
         for ball in spots.in_order(&bed, balls, &self.occupied(balls), radius) {
             let Some(index) = self.index(ball) else { continue };
             let radius = self.bodies[index].ball.radius_m;
-            let place = spots.place(&bed, ball, &self.occupied(&[ball]), radius);
+            let place = spots.place(&bed, ball, *cue_ball, &self.occupied(&[ball]), radius);
             self.put_down(index, place);
         }
     }
 
-    /// Places and radii of the solid balls but these [m].
-    fn occupied(&self, without: &[BallId]) -> Vec<(DVec2, f64)> {
+    /// The solid balls but these.
+    fn occupied(&self, without: &[BallId]) -> Vec<Occupied> {
         let others =
             self.bodies.iter().filter(|body| body.solid() && !without.contains(&body.ball.id));
-        others.map(|body| (body.position.truncate(), body.ball.radius_m)).collect()
+        let lies = |body: &Body| (body.ball.id, body.position.truncate(), body.ball.radius_m);
+        others.map(lies).collect()
     }
 }

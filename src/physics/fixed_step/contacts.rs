@@ -4,8 +4,7 @@ use super::FixedStep;
 use super::body::{Path, Support};
 use super::sweep::{Contact, Partner};
 use crate::ball::BallPlace;
-use crate::events::{FactKind, TouchedBy};
-use crate::ids::BallId;
+use crate::events::FactKind;
 use crate::mesh::Surface;
 use crate::physics::laws::choice;
 use crate::physics::laws::cluster::{self, Touch};
@@ -455,17 +454,13 @@ impl FixedStep {
         let ball = self.bodies[index].ball.id;
         self.begin_shot();
         self.go_on_from(start, index, tau, &mover);
-        let kind = if ball == BallId::CUE {
-            FactKind::CueBallStruck {
-                ball,
-                push: self.is_pushed(index, tau),
-                moving,
-                player: None,
-                position_m: point,
-                normal_speed_m_s: approach,
-            }
-        } else {
-            FactKind::BallTouched { ball, by: TouchedBy::Tip }
+        let kind = FactKind::CueBallStruck {
+            ball,
+            push: self.is_pushed(index, tau),
+            moving,
+            player: None,
+            position_m: point,
+            normal_speed_m_s: approach,
         };
         self.tell(at, kind);
         // However softly: whoever waits for the end of a shot shall hear of it.

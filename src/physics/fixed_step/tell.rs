@@ -9,7 +9,7 @@ use crate::ball::BallPlace;
 use crate::events::{Fact, FactKind};
 use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
-use crate::physics::{Profile, racks, tolerance};
+use crate::physics::{Profile, checks, racks, tolerance};
 use crate::units::Seconds;
 use glam::DVec3;
 
@@ -159,6 +159,11 @@ impl FixedStep {
             cue.guided.has_struck = false;
         }
         self.memory.end();
+        let lies = |body: &Body| (body.ball.id, body.position, body.ball.radius_m);
+        let solid = self.bodies.iter().filter(|body| body.solid());
+        for (a, b) in checks::frozen_pairs(solid.map(lies).collect()) {
+            self.tell(now, FactKind::BallsFrozen { a, b });
+        }
         let lies = |body: &Body| (body.ball.id, body.in_play(), body.position);
         let bed = self.ground.bed.as_ref();
         let cue_in_rack = racks::cue_in_rack(bed, self.bodies.iter().map(lies));

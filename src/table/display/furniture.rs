@@ -61,8 +61,9 @@ fn mirrored(quarter: &[DisplayTriangle]) -> Vec<DisplayTriangle> {
 /// Metal trims round the back of the pockets: a plate on the rail with a collar into the hole.
 pub(super) fn castings(table: &TableParameters) -> Vec<DisplayTriangle> {
     let mut triangles = Vec::new();
-    casting(&mut triangles, table, &table.corner, corner_centre(table), FRAC_PI_4, -1.0);
-    casting(&mut triangles, table, &table.side, side_centre(table), FRAC_PI_2, 0.0);
+    let Some([corner, side]) = table.pockets() else { return triangles };
+    casting(&mut triangles, table, corner, corner_centre(table, corner), FRAC_PI_4, -1.0);
+    casting(&mut triangles, table, side, side_centre(table, side), FRAC_PI_2, 0.0);
     mirrored(&triangles)
 }
 
@@ -131,7 +132,7 @@ fn casting(
     }
 }
 
-/// The eighteen sights: six on each long rail, three on each short one.
+/// The sights.
 fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     let mut triangles = Vec::new();
     let z = table.rail_height_m + MARK_LIFT_M;
@@ -146,19 +147,21 @@ fn diamonds(table: &TableParameters) -> Vec<DisplayTriangle> {
     triangles
 }
 
-/// The line across the bed, the spots, and in snooker the D.
+/// The line across the bed, the D, and the spots, as far as the table has them.
 fn marks(table: &TableParameters) -> Vec<DisplayTriangle> {
     let marks = table.cloth_marks();
-    let (x, y) = (marks.line_x_m, 0.5 * table.width_m);
+    let y = 0.5 * table.width_m;
     let across = |x: f64| [-y, 0.0, y].map(|y| DVec3::new(x, y, MARK_LIFT_M));
     let mut triangles = Vec::new();
-    strip(&mut triangles, &across(x + HALF_LINE_M), &across(x - HALF_LINE_M));
-    if let Some(radius) = marks.d_radius_m {
+    if let Some(x) = marks.line_x_m {
+        strip(&mut triangles, &across(x + HALF_LINE_M), &across(x - HALF_LINE_M));
+    }
+    if let (Some(x), Some(radius)) = (marks.line_x_m, marks.d_radius_m) {
         let arc = |radius: f64| half_circle(DVec2::new(x, 0.0), radius);
         strip(&mut triangles, &arc(radius + HALF_LINE_M), &arc(radius - HALF_LINE_M));
     }
     for spot in marks.spots {
-        // The spots lie on the line.
+        // Spots lie on the line.
         let lift = 1.5 * MARK_LIFT_M;
         fan(&mut triangles, spot.extend(lift), &circle(spot, SPOT_RADIUS_M, lift));
     }

@@ -3,7 +3,7 @@
 use super::scenes::*;
 use glam::{DVec2, DVec3};
 use hapticbillard::ball::{Ball, BallState};
-use hapticbillard::events::{Command, Fact, FactKind, FactSet, Topic, Zone};
+use hapticbillard::events::{Command, Fact, FactKind, FactSet, Spotting, Topic, Zone};
 use hapticbillard::hash::Digest;
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::{Simulation, Solver, Strike};
@@ -139,7 +139,10 @@ fn commands_act_in_the_middle_of_a_shot_and_cutting_still_changes_no_bit() {
     ];
     let run_cut = |cuts: &[f64]| {
         let mut simulation = world(pool(), &balls, &step(4.0));
-        let spot = Command::SpotBalls([BallId(2)].into_iter().collect());
+        let spot = Command::SpotBalls(Spotting {
+            balls: [BallId(2)].into_iter().collect(),
+            cue_ball: BallId::CUE,
+        });
         simulation.apply(0.3333, &spot).unwrap();
         let mut simulation = simulation.strike(strike).unwrap();
         let mut facts = Vec::new();

@@ -135,14 +135,20 @@ impl Account {
         let may_change = is_racked || self.groups == Some(Groups::Open);
         require(may_change || verdict.groups == self.groups, "groups changed")?;
         self.groups = verdict.groups;
-        // Only of the 8 on the break somebody chooses whether it returns.
+        // Of the 8 on the break, and of carom balls that touch, a player chooses whether they return.
         let is_chosen = |choice: &Choice| {
-            matches!(choice, Choice::Respot8Continue | Choice::Respot8CueInHandKitchen)
+            matches!(
+                choice,
+                Choice::Respot8Continue | Choice::Respot8CueInHandKitchen | Choice::SpotFrozen
+            )
         };
         let spots = !verdict.options.iter().any(is_chosen);
         self.awaits_return = false;
         let before = self.on_table.clone();
-        self.move_balls(&fate, verdict, spots)?;
+        match self.is_carom() {
+            true => self.move_carom_balls(&fate, verdict, referee)?,
+            false => self.move_balls(&fate, verdict, spots)?,
+        }
         require(referee.state().on_table.as_slice() == self.on_table, "balls are miscounted")?;
         let missed = referee.state().missed.as_ref();
         let is_kept = missed.is_none_or(|missed| missed.on_table.as_slice() == before);
@@ -153,8 +159,11 @@ impl Account {
 
         let rest = match (verdict.spot.is_empty() || !spots, rest) {
             (true, rest) => rest,
-            (false, [Event::Command(Command::SpotBalls(balls)), rest @ ..]) => {
-                require(*balls == verdict.spot, "other balls are spotted than the verdict says")?;
+            (false, [Event::Command(Command::SpotBalls(spotting)), rest @ ..]) => {
+                require(
+                    spotting.balls == verdict.spot,
+                    "other balls are spotted than the verdict says",
+                )?;
                 rest
             }
             (false, _) => return Err("the balls to spot are not spotted".into()),
@@ -227,6 +236,34 @@ impl Account {
         tally.points += u64::from(!verdict.points.is_nothing());
     }
 
+    /// Whether each player has a cue ball, and no ball is ever gone for good.
+    fn is_carom(&self) -> bool {
+        matches!(self.kind, GameKind::ThreeCushion | GameKind::FreeCarom)
+    }
+
+    /// All three balls are on the table: what was gone is spotted, and each player strikes his own.
+    fn move_carom_balls(
+        &mut self,
+        fate: &Fate,
+        verdict: &Verdict,
+        referee: &Referee,
+    ) -> Result<(), String> {
+        let all = (0..=2).map(BallId);
+        let is_gone = |ball: &BallId| fate.fell(*ball) || fate.left(*ball);
+        let gone: Vec<BallId> = all.clone().filter(is_gone).collect();
+        let would = !verdict.options.is_empty();
+        require(would || verdict.spot.as_slice() == gone, "other balls return than were gone")?;
+        require(!would || gone.is_empty(), "a choice is offered while balls are gone")?;
+        let next = verdict.next_player.unwrap_or(self.player);
+        let cue_ball = match next == self.player {
+            true => self.state.cue_ball,
+            false => BallId(1 - self.state.cue_ball.0.min(1)),
+        };
+        require(referee.state().cue_ball == cue_ball, "the wrong cue ball")?;
+        self.on_table = all.filter(|ball| *ball != cue_ball).collect();
+        Ok(())
+    }
+
     /// Balls on the table, down and off are all balls, and none comes from nowhere.
     fn move_balls(&mut self, fate: &Fate, verdict: &Verdict, spots: bool) -> Result<(), String> {
         let is_gone = |ball: &BallId| fate.fell(*ball) || fate.left(*ball);
@@ -276,8 +313,9 @@ impl Account {
             self.awaits_return = true;
             rest = more;
         }
-        if let [Event::Command(Command::SpotBalls(balls)), more @ ..] = rest {
-            for ball in balls {
+        if let [Event::Command(Command::SpotBalls(spotting)), more @ ..] = rest {
+            let is_carom = self.is_carom();
+            for ball in spotting.balls.iter().filter(|_| !is_carom) {
                 require(!self.on_table.contains(ball), "a ball is spotted that lies there")?;
                 self.on_table.push(*ball);
             }

@@ -44,9 +44,9 @@ fn every_short_game_of_few_balls_keeps_the_rules() {
 /// States with three object balls or fewer: as at the start, and after it.
 fn starts(kind: GameKind) -> Vec<State> {
     let sets: [&[u16]; 4] = [&[1, 8, 9], &[1, 9], &[8, 9], &[8]];
-    let of = |balls: &[u16]| {
+    let of = |player: PlayerId, balls: &[u16]| {
         let balls = balls.iter().copied().filter(|ball| *ball <= game(kind).balls).chain([0]);
-        let state = State::opening(kind, PlayerId::ONE, balls.map(BallId));
+        let state = State::opening(kind, player, balls.map(BallId));
         // So near its end that a race is won.
         let score = match kind {
             GameKind::Straight => ByPlayer { one: 98, two: 98 },
@@ -54,7 +54,10 @@ fn starts(kind: GameKind) -> Vec<State> {
         };
         State { score, ..state }
     };
-    sets.iter().map(|balls| of(balls)).collect()
+    // Where each player has a cue ball it matters who breaks.
+    let two = matches!(kind, GameKind::ThreeCushion | GameKind::FreeCarom);
+    let second = two.then(|| of(PlayerId::TWO, &[1, 2]));
+    sets.iter().map(|balls| of(PlayerId::ONE, balls)).chain(second).collect()
 }
 
 /// All shots from a state; the states that they lead to. Every option is taken.
@@ -70,7 +73,7 @@ fn all_shots(kind: GameKind, state: &State, tally: &mut Tally) -> Vec<State> {
         }
         return after;
     }
-    let alphabet = alphabet(state);
+    let alphabet = alphabet(kind, state);
     let mut place = Vec::new();
     for length in 0..=FACTS {
         let count = alphabet.len().pow(length as u32);
@@ -140,12 +143,16 @@ fn chosen(
 }
 
 /// What may happen in a shot.
-fn alphabet(state: &State) -> Vec<FactKind> {
+fn alphabet(kind: GameKind, state: &State) -> Vec<FactKind> {
     let cue_ball = state.cue_ball;
     let mut kinds = vec![cushion(cue_ball, Rail::Foot), down(cue_ball, PocketId::Fl)];
     for ball in state.on_table.iter().take(3) {
         kinds.extend([met(cue_ball, *ball), down(*ball, PocketId::Fl), cushion(*ball, Rail::Left)]);
         kinds.push(FactKind::BallOffTable { ball: *ball });
+    }
+    if matches!(kind, GameKind::ThreeCushion | GameKind::FreeCarom) {
+        // Either player's ball may lie against the red.
+        kinds.extend([0, 1].map(|a| FactKind::BallsFrozen { a: BallId(a), b: BallId(2) }));
     }
     kinds
 }

@@ -231,7 +231,7 @@ fn hear(
     }
 }
 
-const CHOICES: [Choice; 12] = [
+const CHOICES: [Choice; 13] = [
     Choice::PutBack,
     Choice::Accept,
     Choice::CueInHandKitchen,
@@ -244,6 +244,7 @@ const CHOICES: [Choice; 12] = [
     Choice::PassBack,
     Choice::AskAgain,
     Choice::Play,
+    Choice::SpotFrozen,
 ];
 
 /// What belongs to a shot: the cue ball's placement before it, the stroke, and all until rest.

@@ -3,7 +3,7 @@
 
 use hapticbillard::events::{BallInHand, Call, CallKind, Command, FactKind, Zone};
 use hapticbillard::ids::{BallId, PocketId, Rail};
-use hapticbillard::rules::{Phase, Referee, game, legal_first};
+use hapticbillard::rules::{GameKind, Phase, Referee, game, legal_first};
 use rand::{Rng, RngExt};
 use std::collections::VecDeque;
 
@@ -62,6 +62,9 @@ impl Script {
         }
 
         self.happen(struck(cue_ball));
+        if matches!(referee.game(), GameKind::ThreeCushion | GameKind::FreeCarom) {
+            return self.write_carom(cue_ball, target, &state.on_table, rng);
+        }
         self.happen(met(cue_ball, target));
         let rails = rng.random_range(0..5);
         for rail in 0..rails {
@@ -90,6 +93,27 @@ impl Script {
             snookered: rng.random_bool(0.2),
             cue_in_rack: rng.random_bool(0.2),
         });
+    }
+
+    /// One ball, cushions, mostly the other ball.
+    fn write_carom(
+        &mut self,
+        cue_ball: BallId,
+        first: BallId,
+        object_balls: &[BallId],
+        rng: &mut impl Rng,
+    ) {
+        self.happen(met(cue_ball, first));
+        for rail in 0..rng.random_range(0..8) {
+            self.happen(cushion(cue_ball, Rail::ALL[rail % 4]));
+        }
+        for other in object_balls.iter().filter(|ball| **ball != first && rng.random_bool(0.8)) {
+            self.happen(met(cue_ball, *other));
+        }
+        if rng.random_bool(0.1) {
+            self.happen(FactKind::BallsFrozen { a: BallId(0), b: BallId(2) });
+        }
+        self.happen(FactKind::Settled { snookered: false, cue_in_rack: false });
     }
 
     fn say(&mut self, call: Call) {
