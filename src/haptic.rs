@@ -38,13 +38,24 @@ mod safety;
 
 pub mod simulated;
 
+mod recorded;
+mod recording;
+
+mod inverse3;
+
 mod rehearsal;
 
 pub mod telemetry;
 
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
+pub use inverse3::{Format, INVERSE3, Inverse3, Inverse3Trouble};
 pub use mesh::HapticMesh;
+pub use recorded::RecordedDevice;
+pub use recording::{
+    DeviceRecording, DeviceRecordingError, READINGS_MAX, Reading, RecordingProblem,
+    RecordingReader, RecordingWriter,
+};
 pub use rehearsal::Rehearsal;
 pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
