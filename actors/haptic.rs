@@ -16,6 +16,7 @@ mod seat;
 mod stylus;
 mod thread;
 mod timing;
+mod turns;
 
 pub use body::Body;
 pub use control::{Haptic, Look, Looked};
@@ -29,6 +30,7 @@ pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
+pub use turns::{Call, Called, Explain, Scheduler, Turns};
 
 use glam::DVec3;
 use hapticbillard::ball::{Ball, BallState};

@@ -319,8 +319,9 @@ pub enum HapticDevice {
     Mouse,
     /// A recording of a device, seen from the scene's folder.
     Recorded(String),
-    /// A device of the OpenHaptics library, such as the PHANTOM Omni.
-    OpenHaptics,
+    /// A device of the OpenHaptics library, such as the PHANTOM Omni: the one of this name there,
+    /// or the library's own choice.
+    OpenHaptics(Option<String>),
     /// A Haply Inverse3 at its service.
     Haply,
     /// None, although the scene could be felt.
@@ -328,6 +329,26 @@ pub enum HapticDevice {
 }
 
 impl HapticDevice {
+    /// Those that are named by one word.
+    pub const PLAIN: [HapticDevice; 6] = [
+        HapticDevice::Auto,
+        HapticDevice::Simulated,
+        HapticDevice::Mouse,
+        HapticDevice::OpenHaptics(None),
+        HapticDevice::Haply,
+        HapticDevice::None,
+    ];
+
+    /// The device of this name, as scenes and options write it; none if there is none.
+    pub fn named(text: &str) -> Option<HapticDevice> {
+        match text.split_once(':') {
+            Some((_, "")) => None,
+            Some(("recorded", file)) => Some(HapticDevice::Recorded(file.into())),
+            Some(("openhaptics", name)) => Some(HapticDevice::OpenHaptics(Some(name.into()))),
+            _ => HapticDevice::PLAIN.into_iter().find(|device| device.name() == text),
+        }
+    }
+
     /// Its name in a scene.
     pub fn name(&self) -> String {
         match self {
@@ -335,7 +356,8 @@ impl HapticDevice {
             HapticDevice::Simulated => "simulated".into(),
             HapticDevice::Mouse => "mouse".into(),
             HapticDevice::Recorded(file) => format!("recorded:{file}"),
-            HapticDevice::OpenHaptics => "openhaptics".into(),
+            HapticDevice::OpenHaptics(None) => "openhaptics".into(),
+            HapticDevice::OpenHaptics(Some(name)) => format!("openhaptics:{name}"),
             HapticDevice::Haply => "haply".into(),
             HapticDevice::None => "none".into(),
         }

@@ -50,6 +50,11 @@ impl Body {
         &self.ports
     }
 
+    /// Takes the force away.
+    pub fn let_go(&mut self) {
+        self.device.write(Force::ZERO);
+    }
+
     /// One turn of the loop, `dt` after the last one [s].
     pub fn turn(&mut self, dt: Seconds) -> &ServoReport {
         self.hear(dt);
@@ -112,6 +117,6 @@ impl Body {
 
 impl Drop for Body {
     fn drop(&mut self) {
-        self.device.write(Force::ZERO);
+        self.let_go();
     }
 }

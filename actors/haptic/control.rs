@@ -104,8 +104,13 @@ impl Haptic {
         ];
         for (flag, reason) in wrong.iter().filter(|(flag, _)| flags.has(*flag) && !told.has(*flag))
         {
+            let why = match *flag {
+                SafetyFlags::DISCONNECTED => self.held.seat().why(),
+                _ => None,
+            };
+            let reason = why.map_or(reason.to_string(), |why| format!("{reason}; {why}"));
             log::warn!("{HAPTIC} ({flag:?}): {reason}");
-            failed(reason);
+            failed(&reason);
         }
         if was_running && !self.was_running {
             failed("the servo ended; the device is without force");

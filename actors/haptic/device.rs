@@ -1,5 +1,6 @@
 //! Which devices there are, and how they are opened.
 
+use super::turns::{Explain, Scheduler};
 use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
@@ -8,6 +9,7 @@ use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force};
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
+use std::sync::Arc;
 
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
@@ -41,13 +43,16 @@ pub fn list() -> [Listed; 5] {
 
 /// Why there is no device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
-     [haptic], or \"none\""
-)]
-pub struct NoDevice {
-    /// What was asked for.
-    pub name: String,
+pub enum NoDevice {
+    /// It is not built in.
+    #[error(
+        "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
+         [haptic], or \"none\""
+    )]
+    NotBuiltIn {
+        /// What was asked for.
+        name: String,
+    },
 }
 
 /// A device that was opened.
@@ -56,6 +61,17 @@ pub struct Opened {
     pub device: Box<dyn Device>,
     /// The way from a mouse into its hand, if one leads there.
     pub mouse: Option<MousePort>,
+    /// What turns its servo; none: a thread of ours.
+    pub scheduler: Option<Box<dyn Scheduler>>,
+    /// Who knows why it is not ready.
+    pub explains: Option<Arc<dyn Explain>>,
+}
+
+impl Opened {
+    /// A device that a thread of ours turns, and that nobody else has to do with.
+    pub fn new(device: impl Device + 'static) -> Self {
+        Opened { device: Box::new(device), mouse: None, scheduler: None, explains: None }
+    }
 }
 
 /// Opens the device that a scene names; none where it wants none.
@@ -69,17 +85,17 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
         HapticDevice::Auto | HapticDevice::Simulated => {
             let guide = Guide::Script(roaming());
             let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
-            Ok(Some(Opened { device: Box::new(device), mouse: None }))
+            Ok(Some(Opened::new(device)))
         }
         HapticDevice::Mouse => {
             let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
             let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
-            Ok(Some(Opened { device: Box::new(device), mouse: Some(MousePort(port)) }))
+            Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
         }
-        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics | HapticDevice::Haply => {
-            Err(NoDevice { name: wanted.name() })
+        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics(_) | HapticDevice::Haply => {
+            Err(NoDevice::NotBuiltIn { name: wanted.name() })
         }
     }
 }
@@ -200,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_mouse_moves_the_hand_of_its_device() {
-        let Opened { mut device, mouse } = open(&HapticDevice::Mouse).unwrap().unwrap();
+        let Opened { mut device, mouse, .. } = open(&HapticDevice::Mouse).unwrap().unwrap();
         let mut mouse = FeltMouse::new(mouse.unwrap());
         mouse.hear(&RawInput::Moved { right: 0.25, up: 0.0 });
         mouse.hear(&RawInput::Button { button: Button::Left, down: true });
@@ -224,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_is_listed_without_a_specification_is_refused() {
-        for device in [HapticDevice::OpenHaptics, HapticDevice::Haply] {
+        for device in [HapticDevice::OpenHaptics(None), HapticDevice::Haply] {
             let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
             assert_eq!(listed.spec, None);
             let error = open(&device).err().unwrap().to_string();

@@ -74,6 +74,8 @@ impl Asked {
 pub enum Grant {
     /// Nobody asked.
     NotAsked,
+    /// A vendor's scheduler runs the servo, as it likes.
+    Vendors,
     /// It was given: which core, which priority.
     Obtained(String),
     /// It was not.
@@ -96,6 +98,7 @@ impl fmt::Display for Grant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Grant::NotAsked => f.write_str("not asked for"),
+            Grant::Vendors => f.write_str("the vendor's scheduler decides"),
             Grant::Obtained(what) => f.write_str(what),
             Grant::Refused(refusal) => refusal.fmt(f),
         }
@@ -114,6 +117,10 @@ pub struct Obtained {
 }
 
 impl Obtained {
+    /// Where a vendor's scheduler runs the servo nothing is asked for.
+    pub const VENDORS: Obtained =
+        Obtained { core: Grant::Vendors, priority: Grant::Vendors, memory: Grant::Vendors };
+
     /// Its three parts by name.
     pub fn parts(&self) -> [(&'static str, &Grant); 3] {
         [("core", &self.core), ("priority", &self.priority), ("memory", &self.memory)]
@@ -123,7 +130,7 @@ impl Obtained {
     pub fn refusals(&self) -> impl Iterator<Item = &Refusal> {
         self.parts().into_iter().filter_map(|(_, grant)| match grant {
             Grant::Refused(refusal) => Some(refusal),
-            Grant::NotAsked | Grant::Obtained(_) => None,
+            Grant::NotAsked | Grant::Vendors | Grant::Obtained(_) => None,
         })
     }
 }

@@ -7,6 +7,7 @@ use super::ports::{ControlPorts, Signs, StylusPorts, WorldPort};
 use super::rights::{Asked, Obtained};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
+use super::turns::{Called, Explain, Turns};
 use super::{AllPorts, Opened, Orders};
 use crate::event_manager::Sink;
 use glam::DVec3;
@@ -69,7 +70,10 @@ pub struct Started {
 
 /// Thread, device and the control's ports.
 pub struct Seat {
-    thread: ServoThread,
+    turns: Box<dyn Turns>,
+    timing: Arc<Timing>,
+    signs: Arc<Signs>,
+    explains: Option<Arc<dyn Explain>>,
     spec: DeviceSpec,
     lay: Option<Lay>,
     mail: (flume::Sender<Delivered>, flume::Receiver<Delivered>),
@@ -81,10 +85,11 @@ impl Seat {
     /// Starts a servo. Nothing is felt until a control takes hold of it.
     ///
     /// # Errors
-    /// [`NoServo`] if there is no thread.
+    /// [`NoServo`] if there is no thread, or the device's own scheduler does not start.
     pub fn start(plan: Plan) -> Result<Started, NoServo> {
         let Plan { opened, asked, mesh, effects, reach, lay, bodies } = plan;
-        let spec = opened.device.spec();
+        let Opened { device, scheduler, explains, .. } = opened;
+        let spec = device.spec();
         let servo = Servo::new(ServoSettings::of(&spec));
         let servo = match mesh {
             Some(mesh) => servo.among(mesh),
@@ -92,30 +97,40 @@ impl Seat {
         };
         let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
         let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
-        let thread = ServoThread::start(Body::new(opened.device, servo, ports), asked)?;
+        let (timing, signs) = (ports.timing.clone(), ports.signs.clone());
+        let body = Body::new(device, servo, ports);
+        let turns: Box<dyn Turns> = match scheduler {
+            Some(scheduler) => scheduler.start(Called::new(body))?,
+            None => Box::new(ServoThread::start(body, asked)?),
+        };
         let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some((control, orders))));
-        let seat = Seat { thread, spec, lay, mail, control };
+        let seat = Seat { turns, timing, signs, explains, spec, lay, mail, control };
         Ok(Started { seat: Arc::new(seat), world, stylus })
     }
 
-    /// What the thread got.
+    /// What its thread got.
     pub fn obtained(&self) -> &Obtained {
-        self.thread.obtained()
+        self.turns.obtained()
     }
 
     /// How punctual it is.
     pub fn timing(&self) -> &Timing {
-        self.thread.timing()
+        &self.timing
     }
 
     /// Its signs of life.
     pub fn signs(&self) -> &Arc<Signs> {
-        self.thread.signs()
+        &self.signs
     }
 
     /// Whether it turns.
     pub fn is_running(&self) -> bool {
-        self.thread.is_running()
+        self.turns.is_running()
+    }
+
+    /// Why its device is not ready, and what to do; none if nothing is wrong.
+    pub fn why(&self) -> Option<String> {
+        self.explains.as_ref().and_then(|explains| explains.why())
     }
 
     /// The device.

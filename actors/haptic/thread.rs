@@ -4,7 +4,7 @@ use super::body::Body;
 use super::clock::{Deadlines, now_ns, wait_until};
 use super::ports::Signs;
 use super::rights::{Asked, Obtained, obtain, release};
-use super::timing::Timing;
+use super::turns::Turns;
 use crate::cpu_time::thread_cpu_time;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,6 +19,9 @@ pub enum NoServo {
     /// It ended before it began.
     #[error("the haptic servo ended at its start; report this as a defect")]
     Ended,
+    /// Its device does not let it.
+    #[error(transparent)]
+    Device(#[from] super::NoDevice),
 }
 
 /// A running servo. When it is dropped the thread ends, and leaves the device without force.
@@ -26,7 +29,6 @@ pub struct ServoThread {
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
     obtained: Obtained,
-    timing: Arc<Timing>,
     signs: Arc<Signs>,
 }
 
@@ -35,10 +37,10 @@ impl ServoThread {
     ///
     /// # Errors
     /// [`NoServo`] if there is no thread. Refused rights are no error: see
-    /// [`ServoThread::obtained`].
+    /// [`Turns::obtained`].
     pub fn start(body: Body, asked: Asked) -> Result<Self, NoServo> {
         let stop = Arc::new(AtomicBool::new(false));
-        let (timing, signs) = (body.ports().timing.clone(), body.ports().signs.clone());
+        let signs = body.ports().signs.clone();
         let (tell, told) = flume::bounded(1);
         let thread = {
             let stop = stop.clone();
@@ -55,26 +57,16 @@ impl ServoThread {
             builder.spawn(run).map_err(NoServo::NoThread)?
         };
         let obtained = told.recv().map_err(|_| NoServo::Ended)?;
-        Ok(ServoThread { stop, thread: Some(thread), obtained, timing, signs })
+        Ok(ServoThread { stop, thread: Some(thread), obtained, signs })
     }
+}
 
-    /// What it got.
-    pub fn obtained(&self) -> &Obtained {
+impl Turns for ServoThread {
+    fn obtained(&self) -> &Obtained {
         &self.obtained
     }
 
-    /// How punctual it is.
-    pub fn timing(&self) -> &Arc<Timing> {
-        &self.timing
-    }
-
-    /// Its signs of life.
-    pub fn signs(&self) -> &Arc<Signs> {
-        &self.signs
-    }
-
-    /// Whether it turns. It ends by itself only if something panicked.
-    pub fn is_running(&self) -> bool {
+    fn is_running(&self) -> bool {
         self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
     }
 }

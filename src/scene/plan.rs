@@ -99,7 +99,14 @@ impl Scene {
                         );
                         plan.add(PlanKind::Actor, "haptic", &detail);
                     }
-                    HapticDevice::Recorded(_) | HapticDevice::OpenHaptics | HapticDevice::Haply => {
+                    HapticDevice::OpenHaptics(_) => {
+                        let detail = format!(
+                            "what the device \"{device}\" feels, in a window; a task, and its \
+                             servo in the scheduler of the device's library"
+                        );
+                        plan.add(PlanKind::Actor, "haptic", &detail);
+                    }
+                    HapticDevice::Recorded(_) | HapticDevice::Haply => {
                         let why = format!("the device \"{device}\" is not built in");
                         plan.left_out("haptic", &why);
                     }

@@ -477,29 +477,21 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 
 fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
     section.allow(&["device", "core", "priority", "spin_us"])?;
-    let devices: [(&[&str], HapticDevice); 6] = [
-        (&["auto"], HapticDevice::Auto),
-        (&["simulated"], HapticDevice::Simulated),
-        (&["mouse"], HapticDevice::Mouse),
-        (&["openhaptics"], HapticDevice::OpenHaptics),
-        (&["haply"], HapticDevice::Haply),
-        (&["none"], HapticDevice::None),
-    ];
-    let choices: Vec<(&[&'static str], usize)> =
-        devices.iter().enumerate().map(|(i, (names, _))| (*names, i)).collect();
-    let file = section.text("device", "auto").ok().flatten();
-    let file = file.as_deref().and_then(|text| text.strip_prefix("recorded:"));
-    let device = match file {
-        Some("") => {
-            let (allowed, fix) =
-                ("names no recording", "write for example device = \"recorded:stylus.jsonl\"");
-            return Err(section.error("device", allowed, fix));
+    let text = section.text("device", "auto").ok().flatten();
+    let nameless = |allowed: &str, fix: &str| Err(section.error("device", allowed, fix));
+    let device = match text.as_deref() {
+        Some("recorded:") => {
+            let fix = "write for example device = \"recorded:stylus.jsonl\"";
+            return nameless("names no recording", fix);
         }
-        Some(file) => HapticDevice::Recorded(file.to_string()),
-        None => {
-            let chosen = section.choice("device", &choices)?.unwrap_or(0);
-            devices[chosen].1.clone()
+        Some("openhaptics:") => {
+            let fix = "write device = \"openhaptics\" for the only one";
+            return nameless("names no device", fix);
         }
+        text => match text.and_then(HapticDevice::named) {
+            Some(device) => device,
+            None => plain_device(section)?,
+        },
     };
     let number = |key, range| -> Result<Option<u32>, SceneError> {
         Ok(section.integer(key, range)?.and_then(|number| u32::try_from(number).ok()))
@@ -510,6 +502,16 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         priority: number("priority", 1..=99)?,
         spin_us: number("spin_us", 0..=1000)?,
     })
+}
+
+/// One of the devices that are named by one word; the first of them where nothing is written.
+fn plain_device(section: &Section<'_>) -> Result<HapticDevice, SceneError> {
+    let words: [&[&'static str]; 6] =
+        [&["auto"], &["simulated"], &["mouse"], &["openhaptics"], &["haply"], &["none"]];
+    let choices: Vec<(&[&'static str], usize)> =
+        words.iter().enumerate().map(|(i, word)| (*word, i)).collect();
+    let chosen = section.choice("device", &choices)?.unwrap_or(0);
+    Ok(HapticDevice::PLAIN[chosen].clone())
 }
 
 fn input(section: &Section<'_>) -> Result<InputSection, SceneError> {

@@ -85,7 +85,7 @@ const PUSH_N: f64 = 0.1;
 fn wired() -> (Plan, Arc<Wires>) {
     let wires = Arc::new(Wires::default());
     let plan = Plan {
-        opened: Opened { device: Box::new(Wired(wires.clone())), mouse: None },
+        opened: Opened::new(Wired(wires.clone())),
         asked: Asked { core: Core::Any, lock_memory: false, ..Asked::default() },
         mesh: None,
         effects: EffectSet::of(1, &[Effect::Constant { force: DVec3::X * PUSH_N }]),

@@ -16,9 +16,23 @@ fn the_section_says_what_is_asked_for() {
     let haptic = parse(text).unwrap().haptic.unwrap();
     assert_eq!(haptic.device, HapticDevice::Recorded("s.jsonl".into()));
     assert_eq!((haptic.core, haptic.priority, haptic.spin_us), (Some(1), Some(80), Some(50)));
-    for name in ["auto", "simulated", "mouse", "openhaptics", "haply", "none"] {
+    for name in [
+        "auto",
+        "simulated",
+        "mouse",
+        "openhaptics",
+        "openhaptics:Default PHANToM",
+        "haply",
+        "none",
+        "recorded:s.jsonl",
+    ] {
         let scene = parse(&format!("[haptic]\ndevice = \"{name}\"\n")).unwrap();
-        assert_eq!(scene.haptic.unwrap().device.name(), name);
+        let device = scene.haptic.unwrap().device;
+        assert_eq!(device.name(), name);
+        assert_eq!(HapticDevice::named(name), Some(device));
+    }
+    for name in ["", ":", "phantom", "mouse:", "mouse:x", "openhaptics:", "recorded:"] {
+        assert_eq!(HapticDevice::named(name), None, "{name}");
     }
 }
 
@@ -37,6 +51,11 @@ fn what_is_wrong_in_it_is_said_in_one_exact_line() {
         "[haptic]\ndevice = \"recorded:\"\n",
         "device = \"recorded:\": names no recording; write for example device = \
          \"recorded:stylus.jsonl\"",
+    );
+    check(
+        "[haptic]\ndevice = \"openhaptics:\"\n",
+        "device = \"openhaptics:\": names no device; write device = \"openhaptics\" for the only \
+         one",
     );
     check(
         "[haptic]\npriority = 0\n",
