@@ -20,6 +20,7 @@
 //! permutation, mount and workspace, control commands, tutorials 01 and 06).
 
 use super::device::{Buttons, DeviceSpec, DeviceState, DeviceStatus, Force};
+use crate::one_line::one_line;
 use crate::units::Seconds;
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
@@ -102,8 +103,9 @@ pub enum Inverse3Trouble {
 #[derive(Debug, Clone)]
 pub struct Inverse3 {
     id: String,
-    /// The same as JSON.
+    /// The same as JSON, and as people are told.
     id_json: String,
+    name: String,
     format: Format,
     centre_m: DVec3,
     has_grip: bool,
@@ -122,15 +124,16 @@ impl Inverse3 {
     pub fn greeted(text: &str) -> Result<Self, Inverse3Trouble> {
         let Message { inverse3, wireless_verse_grip, custom_verse_grip, verse_grip } = read(text)?;
         let arm = inverse3.unwrap_or_default().into_iter().next().ok_or(Inverse3Trouble::NoArm)?;
+        let name = one_line(&arm.device_id, 60);
         let config = arm.config.unwrap_or_default();
         if config.kind.as_deref() == Some("minverse") {
-            return Err(Inverse3Trouble::Minverse(arm.device_id));
+            return Err(Inverse3Trouble::Minverse(name));
         }
         let is_new = config.preset.is_some() || config.mount.is_some() || config.filters.is_some();
         let format = if is_new { Format::Vector } else { Format::Values };
         let basis = config.basis.and_then(|basis| basis.permutation);
         if let (Format::Values, Some(basis)) = (format, basis.filter(|basis| basis != "XYZ")) {
-            return Err(Inverse3Trouble::Axes(basis));
+            return Err(Inverse3Trouble::Axes(one_line(&basis, 20)));
         }
         let is_centred = is_new || config.coordinate_origin.as_deref() == Some("workspace_center");
         let mut known = Known::default();
@@ -139,6 +142,7 @@ impl Inverse3 {
         Ok(Inverse3 {
             id_json: serde_json::Value::from(arm.device_id.as_str()).to_string(),
             id: arm.device_id,
+            name,
             format,
             centre_m: if is_centred { DVec3::ZERO } else { CENTRE_M },
             has_grip: grips.iter().flatten().flatten().any(Grip::is_there),
@@ -154,9 +158,9 @@ impl Inverse3 {
         DeviceSpec { senses_orientation: self.has_grip, ..INVERSE3 }
     }
 
-    /// The name of the arm.
-    pub fn id(&self) -> &str {
-        &self.id
+    /// The name of the arm, in one line.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// How forces are written.
@@ -214,12 +218,12 @@ impl Inverse3 {
         let message = read(text)?;
         let arms = message.inverse3.unwrap_or_default();
         let Some(arm) = arms.into_iter().find(|arm| arm.device_id == self.id) else {
-            self.trouble = Some(Inverse3Trouble::Gone(self.id.clone()));
+            self.trouble = Some(Inverse3Trouble::Gone(self.name.clone()));
             self.last.status = DeviceStatus::Lost;
             return Ok(self.last);
         };
         let state = arm.state.unwrap_or_default();
-        let place = state.cursor_position.ok_or(Inverse3Trouble::NoPlace(self.id.clone()))?;
+        let place = state.cursor_position.ok_or(Inverse3Trouble::NoPlace(self.name.clone()))?;
         let position = to_device(place.numbers() - self.centre_m);
         let velocity = match state.cursor_velocity {
             Some(velocity) => to_device(velocity.numbers()),
@@ -233,7 +237,7 @@ impl Inverse3 {
         let turned = turned.or_else(|| state.body_orientation.as_ref().and_then(Turn::turned));
 
         self.known.learn(arm.status);
-        self.trouble = self.known.trouble(&self.id);
+        self.trouble = self.known.trouble(&self.name);
         let status = match &self.trouble {
             None => DeviceStatus::Ready,
             Some(Inverse3Trouble::NotCalibrated(_)) => DeviceStatus::Lost,
@@ -262,10 +266,10 @@ fn to_haply(v: DVec3) -> DVec3 {
 }
 
 fn read(text: &str) -> Result<Message, Inverse3Trouble> {
-    serde_json::from_str(text).map_err(|error| {
-        let reason: String = error.to_string().chars().take(200).collect();
-        Inverse3Trouble::NotUnderstood(reason)
-    })
+    let not_understood = |error: serde_json::Error| {
+        Inverse3Trouble::NotUnderstood(one_line(&error.to_string(), 200))
+    };
+    serde_json::from_str(text).map_err(not_understood)
 }
 
 #[derive(Debug, Default, Deserialize)]

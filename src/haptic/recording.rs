@@ -19,6 +19,7 @@
 //! Numbers are written so that reading gives the same bits.
 
 use super::device::{Buttons, DeviceSpec, DeviceState, DeviceStatus};
+use crate::one_line::without_place;
 use crate::units::Seconds;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
@@ -150,7 +151,7 @@ impl RecordingReader {
             return Err(RecordingProblem::TooMany);
         }
         let row: Row = serde_json::from_str(line)
-            .map_err(|error| RecordingProblem::Line(error.to_string()))?;
+            .map_err(|error| RecordingProblem::Line(without_place(&error)))?;
         let reading = row.after(self.readings.last())?;
         self.readings.push(reading);
         Ok(())
@@ -206,8 +207,8 @@ fn head(line: &str) -> Result<DeviceSpec, RecordingProblem> {
     if kind.version != VERSION {
         return Err(RecordingProblem::Version(kind.version));
     }
-    let head: Head =
-        serde_json::from_str(line).map_err(|error| RecordingProblem::Line(error.to_string()))?;
+    let head: Head = serde_json::from_str(line)
+        .map_err(|error| RecordingProblem::Line(without_place(&error)))?;
     head.device.checked()
 }
 

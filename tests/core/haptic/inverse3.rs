@@ -51,7 +51,7 @@ fn hear(arm: &mut Inverse3, text: &str) -> DeviceState {
 fn the_first_message_tells_the_format() {
     assert_eq!(greeted(OLD).format(), Format::Values);
     assert_eq!(greeted(NEW).format(), Format::Vector);
-    assert_eq!((greeted(OLD).id(), greeted(NEW).id()), ("04C3", "049D"));
+    assert_eq!((greeted(OLD).name(), greeted(NEW).name()), ("04C3", "049D"));
     assert!(!greeted(OLD).spec().senses_orientation && greeted(NEW).spec().senses_orientation);
 }
 
@@ -77,7 +77,7 @@ fn a_force_goes_out_along_the_axis_that_it_came_in_along() {
         arm.push(Force(DVec3::new(1.0, 2.0, 3.0)), &mut out);
         let sent: Value = serde_json::from_str(&out).unwrap();
         let device = &sent["inverse3"][0];
-        assert_eq!(device["device_id"], arm.id());
+        assert_eq!(device["device_id"], arm.name());
         let vector = &device["commands"]["set_cursor_force"][key];
         // Right, away from the user, up.
         let numbers = ["x", "y", "z"].map(|axis| vector[axis].as_f64().unwrap());
