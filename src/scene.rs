@@ -322,8 +322,8 @@ pub enum HapticDevice {
     /// A device of the OpenHaptics library, such as the PHANTOM Omni: the one of this name there,
     /// or the library's own choice.
     OpenHaptics(Option<String>),
-    /// A Haply Inverse3 at its service.
-    Haply,
+    /// A Haply Inverse3 at its service: the one at this `HOST:PORT`, or on this machine.
+    Haply(Option<String>),
     /// None, although the scene could be felt.
     None,
 }
@@ -335,7 +335,7 @@ impl HapticDevice {
         HapticDevice::Simulated,
         HapticDevice::Mouse,
         HapticDevice::OpenHaptics(None),
-        HapticDevice::Haply,
+        HapticDevice::Haply(None),
         HapticDevice::None,
     ];
 
@@ -345,6 +345,12 @@ impl HapticDevice {
             Some((_, "")) => None,
             Some(("recorded", file)) => Some(HapticDevice::Recorded(file.into())),
             Some(("openhaptics", name)) => Some(HapticDevice::OpenHaptics(Some(name.into()))),
+            Some(("haply", address)) => {
+                let (host, port) = address.rsplit_once(':')?;
+                let is_port = port.parse::<u16>().is_ok_and(|port| port > 0);
+                let is_address = !host.is_empty() && is_port;
+                is_address.then(|| HapticDevice::Haply(Some(address.into())))
+            }
             _ => HapticDevice::PLAIN.into_iter().find(|device| device.name() == text),
         }
     }
@@ -358,7 +364,8 @@ impl HapticDevice {
             HapticDevice::Recorded(file) => format!("recorded:{file}"),
             HapticDevice::OpenHaptics(None) => "openhaptics".into(),
             HapticDevice::OpenHaptics(Some(name)) => format!("openhaptics:{name}"),
-            HapticDevice::Haply => "haply".into(),
+            HapticDevice::Haply(None) => "haply".into(),
+            HapticDevice::Haply(Some(address)) => format!("haply:{address}"),
             HapticDevice::None => "none".into(),
         }
     }

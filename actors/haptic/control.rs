@@ -123,11 +123,11 @@ impl Haptic {
     }
 }
 
-/// The greatest stiffness that the lateness allows [N/m].
+/// The greatest stiffness that the lateness of servo and device allows [N/m].
 fn allowed(seat: &Seat, timing: &Timing) -> f64 {
     let late_s = match timing.ticks() {
         ticks if ticks < TICKS_MIN => 0.0,
         _ => timing.lateness.quantile(SHARE) as f64 * 1e-9,
     };
-    stiffness_for(seat.spec(), late_s)
+    stiffness_for(seat.spec(), late_s + seat.device_late_s())
 }

@@ -1,15 +1,21 @@
 //! Which devices there are, and how they are opened.
 
+use super::haply::{self, NoHaply};
+use super::recording;
 use super::turns::{Explain, Scheduler};
 use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
 };
-use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force};
+use hapticbillard::haptic::{
+    Buttons, Device, DeviceSpec, DeviceState, Force, INVERSE3, RecordedDevice,
+};
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
@@ -19,7 +25,9 @@ const MOVES: usize = 256;
 pub struct Listed {
     /// Its name in a scene.
     pub name: &'static str,
-    /// What it is, in units; none: it is not built in.
+    /// Whether this build knows it.
+    pub is_built_in: bool,
+    /// What it is, in units; none if that is known only when it is opened.
     pub spec: Option<DeviceSpec>,
     /// In words.
     pub about: &'static str,
@@ -27,17 +35,17 @@ pub struct Listed {
 
 /// All kinds that a scene can name.
 pub fn list() -> [Listed; 5] {
-    let spec = Some(DeviceSpec::OMNI);
+    let kind = |name, spec, about| Listed { name, is_built_in: true, spec, about };
+    let omni = Some(DeviceSpec::OMNI);
     [
-        Listed { name: "simulated", spec, about: "a simulated device in a simulated hand" },
-        Listed { name: "mouse", spec, about: "a simulated device; a mouse moves the hand" },
-        Listed { name: "recorded:FILE", spec: None, about: "a recording of a device" },
+        kind("simulated", omni, "a simulated device in a simulated hand"),
+        kind("mouse", omni, "a simulated device; a mouse moves the hand"),
+        kind("recorded:FILE", None, "a recording of a device"),
         Listed {
-            name: "openhaptics",
-            spec: None,
-            about: "SensAble and 3D Systems, by OpenHaptics",
+            is_built_in: false,
+            ..kind("openhaptics", None, "SensAble and 3D Systems, by OpenHaptics")
         },
-        Listed { name: "haply", spec: None, about: "Haply Inverse3, at its service" },
+        kind("haply", Some(INVERSE3), "Haply Inverse3, at its service"),
     ]
 }
 
@@ -53,6 +61,17 @@ pub enum NoDevice {
         /// What was asked for.
         name: String,
     },
+    /// A recording cannot be replayed.
+    #[error("{}: {problem}", path.display())]
+    Recording {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        problem: String,
+    },
+    /// There is no Inverse3.
+    #[error(transparent)]
+    Haply(#[from] NoHaply),
 }
 
 /// A device that was opened.
@@ -74,28 +93,53 @@ impl Opened {
     }
 }
 
-/// Opens the device that a scene names; none where it wants none.
+/// How long a service may take to answer that somebody wants, and one that is only tried.
+const WANTED: Duration = Duration::from_secs(2);
+const TRIED: Duration = Duration::from_millis(300);
+
+/// Opens the device that a scene names; none where it wants none. A recording is sought from the
+/// working folder.
 ///
 /// # Errors
-/// [`NoDevice`] if this build does not know it.
+/// [`NoDevice`] if this build does not know it, or it is not there.
 pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
-    let spec = DeviceSpec::OMNI;
     match wanted {
         HapticDevice::None => Ok(None),
-        HapticDevice::Auto | HapticDevice::Simulated => {
-            let guide = Guide::Script(roaming());
-            let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
-            Ok(Some(Opened::new(device)))
-        }
+        HapticDevice::Auto => Ok(Some(first_there().unwrap_or_else(simulated))),
+        HapticDevice::Simulated => Ok(Some(simulated())),
         HapticDevice::Mouse => {
             let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
-            let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
+            let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
             Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
         }
-        HapticDevice::Recorded(_) | HapticDevice::OpenHaptics(_) | HapticDevice::Haply => {
-            Err(NoDevice::NotBuiltIn { name: wanted.name() })
+        HapticDevice::Recorded(file) => {
+            let recording = recording::load(Path::new(file))?;
+            Ok(Some(Opened::new(RecordedDevice::new(Arc::new(recording)))))
+        }
+        HapticDevice::Haply(address) => {
+            let address = address.as_deref().unwrap_or(haply::ADDRESS);
+            Ok(Some(haply::open(address, WANTED)?))
+        }
+        HapticDevice::OpenHaptics(_) => Err(NoDevice::NotBuiltIn { name: wanted.name() }),
+    }
+}
+
+/// A device like an Omni that a script moves.
+fn simulated() -> Opened {
+    let guide = Guide::Script(roaming());
+    Opened::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide))
+}
+
+/// The first device that is there. One that is there and cannot be used is told.
+fn first_there() -> Option<Opened> {
+    match haply::open(haply::ADDRESS, TRIED) {
+        Ok(opened) => Some(opened),
+        Err(NoHaply::Unreachable { .. }) => None,
+        Err(why) => {
+            log::warn!("{why}");
+            None
         }
     }
 }
@@ -239,13 +283,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_listed_without_a_specification_is_refused() {
-        for device in [HapticDevice::OpenHaptics(None), HapticDevice::Haply] {
-            let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
-            assert_eq!(listed.spec, None);
-            let error = open(&device).err().unwrap().to_string();
-            assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
-        }
+    fn what_is_not_built_in_is_refused() {
+        let listed = list().into_iter().find(|listed| !listed.is_built_in).unwrap();
+        let error = open(&HapticDevice::OpenHaptics(None)).err().unwrap().to_string();
+        assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
         assert!(open(&HapticDevice::None).unwrap().is_none());
         assert!(open(&HapticDevice::Auto).unwrap().is_some());
     }

@@ -19,6 +19,7 @@ use hapticbillard::haptic::{
 };
 use hapticbillard::physics::Parameters;
 use hapticbillard::tick::Delivered;
+use hapticbillard::units::Seconds;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a servo is made of.
@@ -131,6 +132,11 @@ impl Seat {
     /// Why its device is not ready, and what to do; none if nothing is wrong.
     pub fn why(&self) -> Option<String> {
         self.explains.as_ref().and_then(|explains| explains.why())
+    }
+
+    /// How much later its device's forces act than its specification says [s].
+    pub fn device_late_s(&self) -> Seconds {
+        self.explains.as_ref().map_or(0.0, |explains| explains.late_s())
     }
 
     /// The device.

@@ -490,6 +490,10 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         }
         text => match text.and_then(HapticDevice::named) {
             Some(device) => device,
+            None if text.is_some_and(|text| text.starts_with("haply:")) => {
+                let fix = "write for example device = \"haply:localhost:10001\"";
+                return nameless("names no HOST:PORT", fix);
+            }
             None => plain_device(section)?,
         },
     };
