@@ -21,14 +21,14 @@ mod timing;
 mod turns;
 
 pub use body::Body;
-pub use control::{Haptic, Look, Looked};
+pub use control::{Haptic, Look, Looked, allowed};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
 pub use haply::NoHaply;
 pub use keeper::{Keeper, keep};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };
-pub use recording::{DeviceRecorder, Recorded};
+pub use recording::{DeviceRecorder, Recorded, load as load_recording};
 pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;

@@ -27,7 +27,8 @@ recorded in the user's data folder, where the last 20 are kept.
 Examples:
   hapticbillard                              the same as: hapticbillard play --scene eight_ball
   hapticbillard play --scene free_play
-  hapticbillard play --seed 3 --record game.jsonl";
+  hapticbillard play --seed 3 --record game.jsonl
+  hapticbillard play --scene haptic_touch --record-device hand.jsonl";
 
 /// Plays a game in a window.
 #[derive(Debug, Clone, Args)]
@@ -48,6 +49,10 @@ pub struct PlayArgs {
     /// Records nothing.
     #[arg(long)]
     pub no_record: bool,
+
+    /// Records what the haptic device says into this file, as JSON lines.
+    #[arg(long, value_name = "FILE")]
+    pub record_device: Option<PathBuf>,
 
     /// The runtime of a game without a window.
     #[arg(long, value_enum, default_value_t)]
@@ -114,8 +119,8 @@ fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
     }
 }
 
-/// Ends the game in order when somebody presses Ctrl-C.
-fn stop_at_interrupt() -> StopFlag {
+/// Ends a game, or whatever looks at the flag, in order when somebody presses Ctrl-C.
+pub fn stop_at_interrupt() -> StopFlag {
     // One handler for the whole program: who gets no window plays another game without one.
     static STOP: OnceLock<StopFlag> = OnceLock::new();
     let stop = STOP.get_or_init(|| {
@@ -136,6 +141,10 @@ fn play_without_window(
     stage: &Stage,
     out: &mut dyn Write,
 ) -> Result<Status, Error> {
+    if args.record_device.is_some() {
+        let problem = "a game without a window has no haptic device";
+        return Err(Error::input("--record-device", problem, "leave it out"));
+    }
     let record = recording(args);
     let names: Vec<String> = stage.scene.players.iter().map(|player| player.name.clone()).collect();
     let how = Headless {

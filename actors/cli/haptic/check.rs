@@ -1,33 +1,44 @@
 //! `hapticbillard haptic check`: the servo's thread on this machine.
 
+use crate::cli::play::stop_at_interrupt;
 use crate::cli::{Status, json_line, positive};
 use clap::Args;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
-use hapticbillard::haptic::{Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region};
+use hapticbillard::haptic::{
+    DeviceStatus, Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region,
+};
 use hapticbillard::ids::BallId;
 use hapticbillard::scene::HapticDevice;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, Grant, Histogram, Obtained, Plan, Seat, Started, Timing, open,
+    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Opened, Plan, Recorded, Seat, Started,
+    Timing, allowed, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const EXAMPLE: &str = "\
-It runs the servo as a game does: simulated device, the table and the 16 balls of eight_ball, 8
-effects. Lateness is from a deadline to the wake; other programs, a virtual machine and the system
-cause it. Work is the thread's own processor time per tick. It exits with 1 only if more than one
-tick in 1000 worked for more than half a millisecond, which is the servo's own making.
+It runs the servo as a game does: a device, the table and the 16 balls of eight_ball, 8 effects.
+Lateness is from a deadline to the wake; other programs, a virtual machine and the system cause it.
+Work is the thread's own processor time per tick. It exits with 1 only if more than one tick in 1000
+worked for more than half a millisecond, which is the servo's own making, or if the device was not
+ready at the end.
+
+With --device the hand feels weak effects; hold the device loosely. With --record what the device
+says is written down, tick by tick, for --device recorded:FILE here or in a scene. Ctrl-C ends early.
 
 Examples:
   hapticbillard haptic check
-  hapticbillard haptic check --seconds 15 --load --json";
+  hapticbillard haptic check --seconds 15 --load --json
+  hapticbillard haptic check --device haply --seconds 60 --record hand.jsonl
+  hapticbillard haptic check --device recorded:hand.jsonl";
 
 /// The scene that is felt.
 const SCENE: &str = "eight_ball";
@@ -42,6 +53,14 @@ pub struct CheckArgs {
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = positive)]
     #[arg(allow_negative_numbers = true)]
     pub seconds: f64,
+
+    /// The device: simulated, mouse, haply, haply:HOST:PORT, recorded:FILE (see `haptic devices`).
+    #[arg(long, value_name = "NAME", default_value = "simulated", value_parser = device)]
+    pub device: HapticDevice,
+
+    /// Records what the device says into this file, as JSON lines.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
 
     /// Keeps every core busy meanwhile.
     #[arg(long)]
@@ -78,22 +97,61 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         return Err(Error::input("--seconds", problem, "write a number up to 86400"));
     }
     let stage = Stage::new(&load_scene(SCENE)?, SCENE)?;
-    let seat = {
-        let _load = args.load.then(Load::start);
-        felt(&stage, asked, Duration::from_secs_f64(args.seconds))?
+    let Some(opened) = open(&args.device)? else {
+        let fix = "write one of those that `hapticbillard haptic devices` lists";
+        return Err(Error::input("--device", "none can be felt", fix));
     };
+    let (opened, recorder) = match &args.record {
+        Some(path) => {
+            let (opened, recorder) = DeviceRecorder::tap(opened, path.clone())?;
+            (opened, Some(recorder))
+        }
+        None => (opened, None),
+    };
+    let (seat, is_ready) = {
+        let _load = args.load.then(Load::start);
+        felt(&stage, opened, asked, Duration::from_secs_f64(args.seconds))?
+    };
+    let recorded = recorder.map(DeviceRecorder::finish).transpose()?;
     let timing = seat.timing();
     let is_ours = timing.overruns() * OVERRUN_IN > timing.ticks();
+    let why = match is_ready {
+        true => None,
+        false => Some(seat.why().unwrap_or("the device was not ready".to_string())),
+    };
     if args.json {
-        json_line(out, &json!({ "summary": summary(args, &seat, asked) }))?;
+        let mut summary = summary(args, &seat, asked);
+        summary["why"] = json!(why);
+        summary["recorded"] = json!(recorded.map(|recorded| recorded.readings));
+        summary["recording_lost"] = json!(recorded.map(|recorded| recorded.lost));
+        json_line(out, &json!({ "summary": summary }))?;
     } else {
         print(&seat, asked, out)?;
+        if let (Some(Recorded { readings, lost }), Some(path)) = (recorded, &args.record) {
+            writeln!(out, "recorded   {readings} readings, {lost} lost: {}", path.display())?;
+        }
+        if let Some(why) = &why {
+            writeln!(out, "device     {why}")?;
+        }
     }
-    Ok(if is_ours || !seat.is_running() { Status::CheckFailed } else { Status::Success })
+    let is_wrong = is_ours || !seat.is_running() || why.is_some();
+    Ok(if is_wrong { Status::CheckFailed } else { Status::Success })
 }
 
-/// Lets the scene be felt for a while, its balls handed over every millisecond.
-fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Error> {
+/// A device by its name.
+fn device(name: &str) -> Result<HapticDevice, String> {
+    HapticDevice::named(name)
+        .ok_or_else(|| "there is no such device; see `hapticbillard haptic devices`".to_string())
+}
+
+/// Lets the scene be felt for a while, its balls handed over every millisecond. Says also whether
+/// the device was ready at the end.
+fn felt(
+    stage: &Stage,
+    opened: Opened,
+    asked: Asked,
+    duration: Duration,
+) -> Result<(Arc<Seat>, bool), Error> {
     let balls = stage.scene.build_balls(&stage.table)?;
     let simulation = stage.simulation()?;
     let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
@@ -101,9 +159,6 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
     let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
     let reach =
         cue_ball.map(|(_, state)| Reach::to_ball(1, state.position, &aim, &settings, &parameters));
-    let Some(opened) = open(&HapticDevice::Simulated)? else {
-        return Err(Error::input("haptic check", "there is no device", "report this as a defect"));
-    };
     let plan = Plan {
         opened,
         asked,
@@ -114,15 +169,20 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
     let Started { seat, mut world, .. } = Seat::start(plan)?;
-    let held = seat.hold();
+    let mut held = seat.hold();
+    let stop = stop_at_interrupt();
     let end = Instant::now() + duration;
     let table = simulation.snapshot(simulation.now_s());
-    while Instant::now() < end && seat.is_running() {
+    while Instant::now() < end && seat.is_running() && !stop.is_set() {
         world.show(&table);
         std::thread::sleep(Duration::from_millis(1));
     }
+    let report = held.as_mut().map(|held| held.report());
+    let is_ready = report.is_none_or(|report| {
+        report.sample.tick == 0 || report.sample.device.status == DeviceStatus::Ready
+    });
     drop(held);
-    Ok(seat)
+    Ok((seat, is_ready))
 }
 
 /// Eight effects, weak enough for the hand to pass through all of them.
@@ -191,6 +251,10 @@ fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
     let rights = |wanted: Value, grant: &Grant| json!({ "asked": wanted, "outcome": grant });
     json!({
         "seconds": args.seconds,
+        "device": args.device.name(),
+        "device_latency_us": us((seat.spec().latency_s * 1e9) as u64),
+        "device_late_us": us((seat.device_late_s() * 1e9) as u64),
+        "stiffness_max_n_m": allowed(seat),
         "load": args.load,
         "core": rights(json!(asked.core), &obtained.core),
         "priority": rights(json!(asked.priority), &obtained.priority),
@@ -207,6 +271,13 @@ fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
 
 fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
     write_rights(asked, seat.obtained(), out)?;
+    let (latency, late) = (seat.spec().latency_s * 1000.0, seat.device_late_s() * 1000.0);
+    let (model, stiffness) = (seat.spec().model, allowed(seat));
+    writeln!(
+        out,
+        "device     {model}: {latency:.2} ms late, {late:.2} ms more at times; {stiffness:.0} N/m \
+         at most"
+    )?;
     let timing: &Timing = seat.timing();
     let (ticks, missed, late) = (timing.ticks(), timing.missed(), timing.late());
     writeln!(out, "ticks      {ticks}; {missed} deadlines missed, {late} wakes over 100 µs late")?;

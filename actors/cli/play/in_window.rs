@@ -11,7 +11,9 @@ use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
-use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus};
+use hapticbillard_actors::haptic::{
+    DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus,
+};
 use hapticbillard_actors::input::WindowHand;
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
@@ -48,7 +50,8 @@ pub fn play_in_window(
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
     let record = recording(args);
-    let finished = match shown(stage, None, record.clone(), args.speed)? {
+    let finished = match shown(stage, None, record.clone(), args.record_device.clone(), args.speed)?
+    {
         Ok(finished) => finished?,
         Err(NoWindow(why)) => return Ok(Err(format!("no window ({why})"))),
     };
@@ -62,7 +65,7 @@ pub fn play_in_window(
 
 /// Plays a recording back in a window.
 pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
-    match shown(stage, Some(recording), None, 1.0)? {
+    match shown(stage, Some(recording), None, None, 1.0)? {
         Ok(finished) => finished.map(|_| Status::Success).map_err(Error::from),
         Err(NoWindow(why)) => {
             Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
@@ -76,6 +79,7 @@ fn shown(
     stage: &Stage,
     replay: Option<Arc<Recording>>,
     record: Option<PathBuf>,
+    record_device: Option<PathBuf>,
     speed: f64,
 ) -> Result<Shown, Error> {
     let mut cast = stage.cast()?;
@@ -105,6 +109,7 @@ fn shown(
         None => stage.haptic()?,
     };
     let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
+    let (plan, recorder) = tapped(plan, record_device)?;
     let has_cue = stage.scene.cue.is_some();
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
@@ -145,7 +150,25 @@ fn shown(
         };
         runtime::run(cast, setup)
     };
-    Ok(show(setup, game))
+    let shown = show(setup, game);
+    if let Some(Recorded { readings, lost }) = recorder.map(DeviceRecorder::finish).transpose()? {
+        log::info!("recorded {readings} readings of the haptic device, {lost} lost");
+    }
+    Ok(shown)
+}
+
+/// The same plan, its device recorded where somebody wants that.
+fn tapped(
+    plan: Option<Plan>,
+    record: Option<PathBuf>,
+) -> Result<(Option<Plan>, Option<DeviceRecorder>), Error> {
+    let Some(path) = record else { return Ok((plan, None)) };
+    let Some(plan) = plan else {
+        let fix = "leave it out, or play a scene with [haptic], such as haptic_touch";
+        return Err(Error::input("--record-device", "the scene has no haptic device", fix));
+    };
+    let (opened, recorder) = DeviceRecorder::tap(plan.opened, path)?;
+    Ok((Some(Plan { opened, ..plan }), Some(recorder)))
 }
 
 /// Nobody at mouse and keyboard plays: a recording does, a stylus, or nobody; the camera is the
