@@ -15,6 +15,8 @@ mod counting;
 mod facts;
 /// Files: sizes, kinds, writing whole.
 mod files;
+/// A Haply device at a service of our own.
+mod haply;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.

@@ -97,13 +97,13 @@ fn wired() -> (Plan, Arc<Wires>) {
 }
 
 /// A world that does nothing but live, as long as this does.
-struct Heart {
+pub struct Heart {
     beats: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Heart {
-    fn of(signs: &Arc<Signs>) -> Self {
+    pub fn of(signs: &Arc<Signs>) -> Self {
         let (signs, beats) = (signs.clone(), Arc::new(AtomicBool::new(true)));
         let go_on = beats.clone();
         let thread = std::thread::spawn(move || {
@@ -124,7 +124,7 @@ impl Drop for Heart {
 }
 
 #[track_caller]
-fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
+pub fn wait_for(what: &str, mut is_so: impl FnMut() -> bool) {
     let start = Instant::now();
     while !is_so() {
         assert!(start.elapsed() < Duration::from_secs(60), "in vain: {what}");
@@ -140,7 +140,7 @@ fn wait_for_nothing(wires: &Wires) {
     wait_for("no force", || wires.force_n() == 0.0);
 }
 
-fn tokio() -> tokio::runtime::Runtime {
+pub fn tokio() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().build().unwrap()
 }
 
@@ -316,7 +316,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
 }
 
 /// Asks until the control has news; returns the reason and the last tick's flags.
-fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
+pub fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
     let mut reason = String::new();
     wait_for("news", || {
         let looked = runtime.block_on(control.ask(Look).send()).unwrap();
