@@ -11,6 +11,7 @@ mod control;
 mod device;
 mod haply;
 mod keeper;
+pub mod openhaptics;
 mod ports;
 mod recording;
 mod rights;

@@ -3,10 +3,10 @@
 use super::haptic::check::write_rights;
 use super::{Status, json_line};
 use clap::Args;
-use hapticbillard::scene::PlanKind;
+use hapticbillard::scene::{HapticDevice, PlanKind};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
-use hapticbillard_actors::haptic::{Asked, HAPTIC, probe};
+use hapticbillard_actors::haptic::{Asked, HAPTIC, Obtained, probe};
 use serde_json::json;
 use std::io::Write;
 
@@ -39,7 +39,8 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let is_felt = plan.iter().any(|line| line.kind == PlanKind::Actor && line.name == HAPTIC);
     let servo = scene.haptic.as_ref().filter(|_| is_felt).map(|section| {
         let asked = Asked::by(section);
-        (asked, probe(&asked))
+        let is_vendors = matches!(section.device, HapticDevice::OpenHaptics(_));
+        (asked, if is_vendors { Obtained::VENDORS } else { probe(&asked) })
     });
     let lines = |kind| plan.iter().filter(move |line| line.kind == kind);
     if args.json {

@@ -112,7 +112,8 @@ impl Haptic {
             failed(&reason);
         }
         if was_running && !self.was_running {
-            failed("the servo ended; the device is without force");
+            let why = self.held.seat().why();
+            failed(&why.unwrap_or("the servo ended; the device is without force".to_string()));
         }
         let is_fine = |flags: SafetyFlags| wrong.iter().all(|(flag, _)| !flags.has(*flag));
         if is_fine(flags) && !is_fine(told) && self.was_running {

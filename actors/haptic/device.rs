@@ -1,15 +1,14 @@
 //! Which devices there are, and how they are opened.
 
 use super::haply::{self, NoHaply};
+use super::openhaptics::{self, NoOpenHaptics};
 use super::recording;
 use super::turns::{Explain, Scheduler};
 use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
 };
-use hapticbillard::haptic::{
-    Buttons, Device, DeviceSpec, DeviceState, Force, INVERSE3, RecordedDevice,
-};
+use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force, RecordedDevice};
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
@@ -21,46 +20,56 @@ use std::time::Duration;
 const MOVES: usize = 256;
 
 /// A kind of device as `haptic devices` lists it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Listed {
     /// Its name in a scene.
     pub name: &'static str,
-    /// Whether this build knows it.
-    pub is_built_in: bool,
-    /// What it is, in units; none if that is known only when it is opened.
-    pub spec: Option<DeviceSpec>,
     /// In words.
     pub about: &'static str,
+    /// What it is, in units; none: there is none, or any.
+    pub spec: Option<DeviceSpec>,
+    /// What it says of itself, or why it is not there.
+    pub says: Option<String>,
 }
 
-/// All kinds that a scene can name.
+/// All kinds that a scene can name. Those that can be there or not are asked.
 pub fn list() -> [Listed; 5] {
-    let kind = |name, spec, about| Listed { name, is_built_in: true, spec, about };
-    let omni = Some(DeviceSpec::OMNI);
+    let simulated = |name, about| Listed { name, about, spec: Some(DeviceSpec::OMNI), says: None };
+    let (omni, omni_says) = match openhaptics::look(openhaptics::named().as_deref(), None) {
+        Ok(seen) => (Some(seen.spec), seen.about),
+        Err(error) => (None, error.to_string()),
+    };
+    let (inverse3, inverse3_says) = match haply::open(haply::ADDRESS, TRIED) {
+        Ok(opened) => (Some(opened.device.spec()), format!("its service is at {}", haply::ADDRESS)),
+        Err(error) => (None, error.to_string()),
+    };
     [
-        kind("simulated", omni, "a simulated device in a simulated hand"),
-        kind("mouse", omni, "a simulated device; a mouse moves the hand"),
-        kind("recorded:FILE", None, "a recording of a device"),
+        simulated("simulated", "a simulated device in a simulated hand"),
+        simulated("mouse", "a simulated device; a mouse moves the hand"),
         Listed {
-            is_built_in: false,
-            ..kind("openhaptics", None, "SensAble and 3D Systems, by OpenHaptics")
+            name: "recorded:FILE",
+            about: "a recording of a device",
+            spec: None,
+            says: Some("what `haptic check --record FILE` wrote".to_string()),
         },
-        kind("haply", Some(INVERSE3), "Haply Inverse3, at its service"),
+        Listed {
+            name: "openhaptics",
+            about: "SensAble and 3D Systems, by OpenHaptics",
+            spec: omni,
+            says: Some(omni_says),
+        },
+        Listed {
+            name: "haply",
+            about: "Haply Inverse3, at its service",
+            spec: inverse3,
+            says: Some(inverse3_says),
+        },
     ]
 }
 
 /// Why there is no device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoDevice {
-    /// It is not built in.
-    #[error(
-        "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
-         [haptic], or \"none\""
-    )]
-    NotBuiltIn {
-        /// What was asked for.
-        name: String,
-    },
     /// A recording cannot be replayed.
     #[error("{}: {problem}", path.display())]
     Recording {
@@ -72,6 +81,9 @@ pub enum NoDevice {
     /// There is no Inverse3.
     #[error(transparent)]
     Haply(#[from] NoHaply),
+    /// OpenHaptics does not give it.
+    #[error(transparent)]
+    OpenHaptics(#[from] NoOpenHaptics),
 }
 
 /// A device that was opened.
@@ -107,6 +119,10 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
         HapticDevice::None => Ok(None),
         HapticDevice::Auto => Ok(Some(first_there().unwrap_or_else(simulated))),
         HapticDevice::Simulated => Ok(Some(simulated())),
+        HapticDevice::OpenHaptics(name) => {
+            let library = openhaptics::named();
+            Ok(Some(openhaptics::open(library.as_deref(), name.as_deref())?))
+        }
         HapticDevice::Mouse => {
             let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
             let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide);
@@ -122,26 +138,29 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             let address = address.as_deref().unwrap_or(haply::ADDRESS);
             Ok(Some(haply::open(address, WANTED)?))
         }
-        HapticDevice::OpenHaptics(_) => Err(NoDevice::NotBuiltIn { name: wanted.name() }),
     }
 }
 
-/// A device like an Omni that a script moves.
+/// A simulated device in nobody's hand.
 fn simulated() -> Opened {
     let guide = Guide::Script(roaming());
     Opened::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide))
 }
 
-/// The first device that is there. One that is there and cannot be used is told.
+/// The first real device that is there. Who has no vendor's library and no service has no device,
+/// and need not be told.
 fn first_there() -> Option<Opened> {
-    match haply::open(haply::ADDRESS, TRIED) {
-        Ok(opened) => Some(opened),
-        Err(NoHaply::Unreachable { .. }) => None,
-        Err(why) => {
-            log::warn!("{why}");
-            None
-        }
+    match openhaptics::open(openhaptics::named().as_deref(), None) {
+        Ok(opened) => return Some(opened),
+        Err(NoOpenHaptics::NoLibrary { .. }) => {}
+        Err(error) => log::warn!("{error}"),
     }
+    match haply::open(haply::ADDRESS, TRIED) {
+        Ok(opened) => return Some(opened),
+        Err(NoHaply::Unreachable { .. }) => {}
+        Err(error) => log::warn!("{error}"),
+    }
+    None
 }
 
 /// How long the hand without a person goes from place to place [s], and how often.
@@ -283,10 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_built_in_is_refused() {
-        let listed = list().into_iter().find(|listed| !listed.is_built_in).unwrap();
-        let error = open(&HapticDevice::OpenHaptics(None)).err().unwrap().to_string();
-        assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
+    fn what_needs_no_hardware_can_be_opened() {
         assert!(open(&HapticDevice::None).unwrap().is_none());
         assert!(open(&HapticDevice::Auto).unwrap().is_some());
     }

@@ -31,7 +31,7 @@ pub struct Keeper {
 
 /// Keeps a control at this servo, and tells `news` what the player should know.
 pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
-    for refusal in seat.obtained().refusals() {
+    for refusal in seat.refusals() {
         log::warn!("{HAPTIC}: {refusal}");
         tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason: refusal.to_string() });
     }

@@ -4,7 +4,7 @@
 
 use super::body::Body;
 use super::ports::{ControlPorts, Signs, StylusPorts, WorldPort};
-use super::rights::{Asked, Obtained};
+use super::rights::{Asked, Obtained, Refusal};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
 use super::turns::{Called, Explain, Turns};
@@ -124,6 +124,16 @@ impl Seat {
         &self.signs
     }
 
+    /// What the operating system and the device refused.
+    pub fn refusals(&self) -> impl Iterator<Item = &Refusal> {
+        self.obtained().refusals().chain(self.device_refusal())
+    }
+
+    /// What the device refused.
+    pub fn device_refusal(&self) -> Option<&Refusal> {
+        self.turns.refusal()
+    }
+
     /// Whether it turns.
     pub fn is_running(&self) -> bool {
         self.turns.is_running()
@@ -131,7 +141,8 @@ impl Seat {
 
     /// Why its device is not ready, and what to do; none if nothing is wrong.
     pub fn why(&self) -> Option<String> {
-        self.explains.as_ref().and_then(|explains| explains.why())
+        let device = self.explains.as_ref().and_then(|explains| explains.why());
+        device.or_else(|| self.turns.why())
     }
 
     /// How much later its device's forces act than its specification says [s].

@@ -3,7 +3,7 @@
 
 use super::body::Body;
 use super::clock::now_ns;
-use super::rights::Obtained;
+use super::rights::{Obtained, Refusal};
 use super::thread::NoServo;
 use super::timing::Timing;
 use crate::cpu_time::thread_cpu_time;
@@ -19,6 +19,16 @@ pub trait Turns: Send + Sync {
 
     /// Whether it turns. It ends by itself only if something is broken.
     fn is_running(&self) -> bool;
+
+    /// Why it does not, where it knows.
+    fn why(&self) -> Option<String> {
+        None
+    }
+
+    /// What its device refused.
+    fn refusal(&self) -> Option<&Refusal> {
+        None
+    }
 }
 
 /// A vendor's scheduler that stands ready.
@@ -58,6 +68,7 @@ pub struct Called {
 pub struct Call {
     stop: AtomicBool,
     ended: AtomicBool,
+    inside: AtomicBool,
     /// When it was last called; 0: never.
     last_ns: AtomicU64,
 }
@@ -71,6 +82,16 @@ impl Call {
     /// Whether the last turn is over.
     pub fn has_ended(&self) -> bool {
         self.ended.load(Ordering::Acquire)
+    }
+
+    /// Whether a turn has begun and is not over.
+    pub fn is_inside(&self) -> bool {
+        self.inside.load(Ordering::Acquire)
+    }
+
+    /// Whether it was called at all.
+    pub fn has_begun(&self) -> bool {
+        self.last_ns.load(Ordering::Acquire) != 0
     }
 
     /// How long nobody has called, since the first time [ns].
@@ -95,16 +116,15 @@ impl Called {
         &self.call
     }
 
-    /// Lets go of the dead man's switch.
-    pub fn release(&self) {
-        self.body.ports().signs.hold(false);
-    }
-
     /// One turn, now. False: it was the last one, and the device is without force.
     pub fn turn(&mut self) -> bool {
-        if self.call.has_ended() {
-            return false;
-        }
+        self.call.inside.store(true, Ordering::Release);
+        let goes_on = !self.call.has_ended() && self.timed();
+        self.call.inside.store(false, Ordering::Release);
+        goes_on
+    }
+
+    fn timed(&mut self) -> bool {
         let woke_ns = now_ns();
         let taken_ns = match self.call.last_ns.swap(woke_ns, Ordering::AcqRel) {
             0 => self.period_ns,

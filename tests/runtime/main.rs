@@ -25,6 +25,8 @@ mod hearing;
 mod json;
 /// Who stands in for whom.
 mod mocks;
+/// Devices of the vendor's HD library, in front of a stub of it.
+mod openhaptics;
 /// What enters from outside: pauses, wrong files.
 mod outside;
 /// Pictures without a window.
@@ -41,6 +43,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// The stub of the vendor's HD library.
+mod stub_hd;
 /// Who dies and what then.
 mod supervision;
 /// The progress bar.

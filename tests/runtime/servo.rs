@@ -80,7 +80,7 @@ impl Drop for Wired {
 }
 
 /// What the device is pushed with [N]: less than what the start ramp waits for.
-const PUSH_N: f64 = 0.1;
+pub const PUSH_N: f64 = 0.1;
 
 fn wired() -> (Plan, Arc<Wires>) {
     let wires = Arc::new(Wires::default());
@@ -315,7 +315,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
     assert_eq!(wires.force_n(), 0.0);
 }
 
-/// Asks until the control has news; returns the reason and the last tick's flags.
+/// Asks until the control has news; returns the reason.
 pub fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
     let mut reason = String::new();
     wait_for("news", || {

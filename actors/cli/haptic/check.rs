@@ -6,7 +6,7 @@ use clap::Args;
 use glam::DVec3;
 use hapticbillard::cue::Aim;
 use hapticbillard::haptic::{
-    DeviceStatus, Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region,
+    Counters, Effect, EffectSet, HapticMesh, Reach, ReachSettings, Region,
 };
 use hapticbillard::ids::BallId;
 use hapticbillard::scene::HapticDevice;
@@ -14,8 +14,8 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Opened, Plan, Recorded, Seat, Started,
-    Timing, allowed, open,
+    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Plan, Recorded, Seat, Started, Timing,
+    allowed, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
@@ -25,18 +25,23 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const EXAMPLE: &str = "\
-It runs the servo as a game does: a device, the table and the 16 balls of eight_ball, 8 effects.
+It runs the servo as a game does: the table and the 16 balls of eight_ball, 8 weak effects.
 Lateness is from a deadline to the wake; other programs, a virtual machine and the system cause it.
-Work is the thread's own processor time per tick. It exits with 1 only if more than one tick in 1000
-worked for more than half a millisecond, which is the servo's own making, or if the device was not
+Work is the thread's own processor time per tick. It exits with 1 if more than one tick in 1000
+worked for more than half a millisecond, which is the servo's own making, or if the device is not
 ready at the end.
 
-With --device the hand feels weak effects; hold the device loosely. With --record what the device
-says is written down, tick by tick, for --device recorded:FILE here or in a scene. Ctrl-C ends early.
+A real device is pushed with up to half a newton: hold its stylus. Where a vendor's library has a
+scheduler of its own, that one turns the servo; --core, --priority and --spin-us are its affair
+then, and lateness is from one period after the last tick.
+
+With --record what the device says is written down, tick by tick; --device recorded:FILE says it
+again, here or in a scene. Ctrl-C ends early and loses nothing.
 
 Examples:
   hapticbillard haptic check
   hapticbillard haptic check --seconds 15 --load --json
+  hapticbillard haptic check --device openhaptics
   hapticbillard haptic check --device haply --seconds 60 --record hand.jsonl
   hapticbillard haptic check --device recorded:hand.jsonl";
 
@@ -54,8 +59,8 @@ pub struct CheckArgs {
     #[arg(allow_negative_numbers = true)]
     pub seconds: f64,
 
-    /// The device: simulated, mouse, haply, haply:HOST:PORT, recorded:FILE (see `haptic devices`).
-    #[arg(long, value_name = "NAME", default_value = "simulated", value_parser = device)]
+    /// The device, as a scene names it: see `hapticbillard haptic devices`.
+    #[arg(long, value_name = "DEVICE", default_value = "simulated", value_parser = device)]
     pub device: HapticDevice,
 
     /// Records what the device says into this file, as JSON lines.
@@ -83,6 +88,24 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
+fn device(text: &str) -> Result<HapticDevice, String> {
+    let device = HapticDevice::named(text).filter(|device| *device != HapticDevice::None);
+    device.ok_or("`hapticbillard haptic devices` lists them".to_string())
+}
+
+/// What came of it.
+struct Checked {
+    seat: Arc<Seat>,
+    /// What the safety chain did.
+    counters: Counters,
+    /// Why the device was not ready, in the order in which that was seen.
+    troubles: Vec<String>,
+    /// Whether it is not ready now.
+    is_in_trouble: bool,
+    /// What was recorded, where that was wanted.
+    recorded: Option<Recorded>,
+}
+
 /// Runs the servo and tells.
 pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let usual = Asked::default();
@@ -97,9 +120,31 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         return Err(Error::input("--seconds", problem, "write a number up to 86400"));
     }
     let stage = Stage::new(&load_scene(SCENE)?, SCENE)?;
+    let checked = {
+        let _load = args.load.then(Load::start);
+        felt(&stage, args, asked)?
+    };
+    let timing = checked.seat.timing();
+    let is_ours = timing.overruns() * OVERRUN_IN > timing.ticks();
+    if args.json {
+        json_line(out, &json!({ "summary": summary(args, &checked, asked) }))?;
+    } else {
+        print(&checked, asked, out)?;
+    }
+    Ok(if is_ours || checked.is_in_trouble { Status::CheckFailed } else { Status::Success })
+}
+
+/// Lets the scene be felt for a while, its balls handed over every millisecond.
+fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error> {
+    let balls = stage.scene.build_balls(&stage.table)?;
+    let simulation = stage.simulation()?;
+    let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
+    let (parameters, settings) = (stage.scene.parameters(), ReachSettings::default());
+    let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
+    let reach =
+        cue_ball.map(|(_, state)| Reach::to_ball(1, state.position, &aim, &settings, &parameters));
     let Some(opened) = open(&args.device)? else {
-        let fix = "write one of those that `hapticbillard haptic devices` lists";
-        return Err(Error::input("--device", "none can be felt", fix));
+        return Err(Error::input("haptic check", "there is no device", "report this as a defect"));
     };
     let (opened, recorder) = match &args.record {
         Some(path) => {
@@ -108,57 +153,6 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         }
         None => (opened, None),
     };
-    let (seat, is_ready) = {
-        let _load = args.load.then(Load::start);
-        felt(&stage, opened, asked, Duration::from_secs_f64(args.seconds))?
-    };
-    let recorded = recorder.map(DeviceRecorder::finish).transpose()?;
-    let timing = seat.timing();
-    let is_ours = timing.overruns() * OVERRUN_IN > timing.ticks();
-    let why = match is_ready {
-        true => None,
-        false => Some(seat.why().unwrap_or("the device was not ready".to_string())),
-    };
-    if args.json {
-        let mut summary = summary(args, &seat, asked);
-        summary["why"] = json!(why);
-        summary["recorded"] = json!(recorded.map(|recorded| recorded.readings));
-        summary["recording_lost"] = json!(recorded.map(|recorded| recorded.lost));
-        json_line(out, &json!({ "summary": summary }))?;
-    } else {
-        print(&seat, asked, out)?;
-        if let (Some(Recorded { readings, lost }), Some(path)) = (recorded, &args.record) {
-            writeln!(out, "recorded   {readings} readings, {lost} lost: {}", path.display())?;
-        }
-        if let Some(why) = &why {
-            writeln!(out, "device     {why}")?;
-        }
-    }
-    let is_wrong = is_ours || !seat.is_running() || why.is_some();
-    Ok(if is_wrong { Status::CheckFailed } else { Status::Success })
-}
-
-/// A device by its name.
-fn device(name: &str) -> Result<HapticDevice, String> {
-    HapticDevice::named(name)
-        .ok_or_else(|| "there is no such device; see `hapticbillard haptic devices`".to_string())
-}
-
-/// Lets the scene be felt for a while, its balls handed over every millisecond. Says also whether
-/// the device was ready at the end.
-fn felt(
-    stage: &Stage,
-    opened: Opened,
-    asked: Asked,
-    duration: Duration,
-) -> Result<(Arc<Seat>, bool), Error> {
-    let balls = stage.scene.build_balls(&stage.table)?;
-    let simulation = stage.simulation()?;
-    let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
-    let (parameters, settings) = (stage.scene.parameters(), ReachSettings::default());
-    let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
-    let reach =
-        cue_ball.map(|(_, state)| Reach::to_ball(1, state.position, &aim, &settings, &parameters));
     let plan = Plan {
         opened,
         asked,
@@ -171,18 +165,20 @@ fn felt(
     let Started { seat, mut world, .. } = Seat::start(plan)?;
     let mut held = seat.hold();
     let stop = stop_at_interrupt();
-    let end = Instant::now() + duration;
+    let end = Instant::now() + Duration::from_secs_f64(args.seconds);
     let table = simulation.snapshot(simulation.now_s());
+    let mut troubles = Vec::new();
     while Instant::now() < end && seat.is_running() && !stop.is_set() {
         world.show(&table);
+        troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
         std::thread::sleep(Duration::from_millis(1));
     }
-    let report = held.as_mut().map(|held| held.report());
-    let is_ready = report.is_none_or(|report| {
-        report.sample.tick == 0 || report.sample.device.status == DeviceStatus::Ready
-    });
+    let counters = held.as_mut().map(|held| held.report().counters).unwrap_or_default();
+    let is_in_trouble = !seat.is_running() || seat.why().is_some();
+    troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
     drop(held);
-    Ok((seat, is_ready))
+    let recorded = recorder.map(DeviceRecorder::finish).transpose()?;
+    Ok(Checked { seat, counters, troubles, is_in_trouble, recorded })
 }
 
 /// Eight effects, weak enough for the hand to pass through all of them.
@@ -246,15 +242,12 @@ fn quantiles(histogram: &Histogram) -> Value {
     json!({ "p50": p50, "p99": p99, "p99_9": p99_9, "max": us(histogram.most()) })
 }
 
-fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
-    let (timing, obtained) = (seat.timing(), seat.obtained());
+fn summary(args: &CheckArgs, checked: &Checked, asked: Asked) -> Value {
+    let Checked { seat, counters, troubles, .. } = checked;
+    let (timing, obtained, spec) = (seat.timing(), seat.obtained(), seat.spec());
     let rights = |wanted: Value, grant: &Grant| json!({ "asked": wanted, "outcome": grant });
     json!({
         "seconds": args.seconds,
-        "device": args.device.name(),
-        "device_latency_us": us((seat.spec().latency_s * 1e9) as u64),
-        "device_late_us": us((seat.device_late_s() * 1e9) as u64),
-        "stiffness_max_n_m": allowed(seat),
         "load": args.load,
         "core": rights(json!(asked.core), &obtained.core),
         "priority": rights(json!(asked.priority), &obtained.priority),
@@ -266,18 +259,46 @@ fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
         "lateness_us": quantiles(&timing.lateness),
         "work_us": quantiles(&timing.work),
         "overruns": timing.overruns(),
+        "device": {
+            "name": args.device.name(),
+            "model": spec.model,
+            "rate_hz": spec.rate_hz,
+            "force_max_n": spec.force_max_n,
+            "latency_us": us((spec.latency_s * 1e9) as u64),
+            "late_us": us((seat.device_late_s() * 1e9) as u64),
+            "stiffness_max_n_m": allowed(seat),
+            "recorded": checked.recorded.map(|recorded| recorded.readings),
+            "recording_lost": checked.recorded.map(|recorded| recorded.lost),
+            "refused": seat.device_refusal().map(ToString::to_string),
+            "troubles": troubles,
+        },
+        "safety": {
+            "not_finite": counters.not_finite,
+            "late": counters.late,
+            "stalls": counters.stalls,
+            "too_fast": counters.too_fast,
+        },
     })
 }
 
-fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
-    write_rights(asked, seat.obtained(), out)?;
-    let (latency, late) = (seat.spec().latency_s * 1000.0, seat.device_late_s() * 1000.0);
-    let (model, stiffness) = (seat.spec().model, allowed(seat));
+fn print(checked: &Checked, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
+    let Checked { seat, counters, troubles, .. } = checked;
+    let spec = seat.spec();
+    let (model, force_n, rate_hz) = (spec.model, spec.force_max_n, spec.rate_hz);
+    let (latency, late) = (spec.latency_s * 1000.0, seat.device_late_s() * 1000.0);
     writeln!(
         out,
-        "device     {model}: {latency:.2} ms late, {late:.2} ms more at times; {stiffness:.0} N/m \
-         at most"
+        "device     {model}, {force_n} N, {rate_hz} Hz, {latency:.2} ms late and {late:.2} ms more \
+         at times; {:.0} N/m at most",
+        allowed(seat)
     )?;
+    if let Some(Recorded { readings, lost }) = checked.recorded {
+        writeln!(out, "recorded   {readings} readings, {lost} lost")?;
+    }
+    for trouble in seat.device_refusal().map(ToString::to_string).iter().chain(troubles) {
+        writeln!(out, "trouble    {trouble}")?;
+    }
+    write_rights(asked, seat.obtained(), out)?;
     let timing: &Timing = seat.timing();
     let (ticks, missed, late) = (timing.ticks(), timing.missed(), timing.late());
     writeln!(out, "ticks      {ticks}; {missed} deadlines missed, {late} wakes over 100 µs late")?;
@@ -290,7 +311,13 @@ fn print(seat: &Seat, asked: Asked, out: &mut dyn Write) -> Result<(), Error> {
         )?;
     }
     let overruns = timing.overruns();
-    Ok(writeln!(out, "overruns   {overruns} ticks worked for more than half a millisecond")?)
+    writeln!(out, "overruns   {overruns} ticks worked for more than half a millisecond")?;
+    let Counters { not_finite, late, stalls, too_fast, .. } = counters;
+    Ok(writeln!(
+        out,
+        "safety     {not_finite} readings without numbers, {late} late ticks, {stalls} stalls, \
+         {too_fast} times too fast"
+    )?)
 }
 
 /// What was asked for and what came of it, a line each.

@@ -1,27 +1,27 @@
-//! `hapticbillard haptic devices`: what a scene can ask for, what is built in, and what is there.
+//! `hapticbillard haptic devices`: what a scene can ask for, and what is built in.
 
 use crate::cli::{Status, json_line};
 use clap::Args;
-use hapticbillard::haptic::DeviceSpec;
-use hapticbillard::scene::HapticDevice;
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::haptic::{Listed, list, open};
-use serde_json::{Value, json};
+use hapticbillard_actors::haptic::list;
+use serde_json::json;
 use std::io::Write;
 
 const EXAMPLE: &str = "\
-A scene names its device in [haptic], such as device = \"mouse\"; `haptic check --device NAME` tries
-one. Devices that can be plugged in are looked for.
+A scene names its device in [haptic], such as device = \"mouse\". Where several devices hang on
+OpenHaptics, device = \"openhaptics:NAME\" names the one that the vendor's program calls NAME. The
+OpenHaptics library is looked for where the system looks for libraries; the environment variable
+HAPTICBILLARD_LIBHD names another file. No device is pushed by this command.
 
-  simulated, mouse     need nothing
-  recorded:FILE        made by `haptic check --record FILE`, `haptic simulate --stroke 1 --record
-                       FILE` or `play --record-device FILE`; a scene's lies in its folder
-  haply                a Haply Inverse3 whose service runs on this machine (open the Haply Hub)
-  haply:HOST:PORT      the same elsewhere
+A Haply Inverse3 is looked for at its service on this machine, which the Haply Hub starts; device =
+\"haply:HOST:PORT\" names another one. A recording is made by `haptic check --record FILE`, `haptic
+simulate --stroke 1 --record FILE` or `play --record-device FILE`, and lies in the scene's folder or
+below.
 
 Examples:
   hapticbillard haptic devices
-  hapticbillard haptic devices --json";
+  hapticbillard haptic devices --json
+  HAPTICBILLARD_LIBHD=/opt/OpenHaptics/lib/libHD.so hapticbillard haptic devices";
 
 /// Lists the haptic devices that a scene can name.
 #[derive(Debug, Clone, Args)]
@@ -32,95 +32,54 @@ pub struct DevicesArgs {
     pub json: bool,
 }
 
-/// Whether a device is there.
-enum There {
-    /// It needs nothing to be.
-    Always,
-    /// It answers, and is this.
-    Yes(DeviceSpec),
-    /// It does not.
-    No(String),
-}
-
 /// Lists them.
 pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let devices = list();
-    let mut found = 0;
     for device in &devices {
-        let there = look_for(device);
-        found += u32::from(matches!(there, There::Yes(_)));
         if args.json {
-            json_line(out, &line(device, &there))?;
+            let spec = device.spec.map(|spec| {
+                json!({
+                    "model": spec.model,
+                    "workspace_m": spec.workspace_m.to_array(),
+                    "force_max_n": spec.force_max_n,
+                    "force_continuous_n": spec.force_continuous_n,
+                    "stiffness_max_n_m": spec.stiffness_max_n_m,
+                    "rate_hz": spec.rate_hz,
+                    "latency_s": spec.latency_s,
+                })
+            });
+            let line = json!({
+                "name": device.name,
+                "about": device.about,
+                "built_in": true,
+                "spec": spec,
+                "says": device.says,
+            });
+            json_line(out, &line)?;
         } else {
-            writeln!(out, "{:<14} {}; {}", device.name, device.about, words(device, &there))?;
+            let how = match device.spec {
+                Some(spec) => format!(
+                    "like a {}: {} N, {} N for long, {} N/m, {} Hz",
+                    spec.model,
+                    spec.force_max_n,
+                    spec.force_continuous_n,
+                    spec.stiffness_max_n_m,
+                    spec.rate_hz
+                ),
+                None if device.name.starts_with("recorded") => "like the recorded one".to_string(),
+                None => "not there".to_string(),
+            };
+            writeln!(out, "{:<14} {}; {how}", device.name, device.about)?;
+            if let Some(says) = &device.says {
+                writeln!(out, "{:<14} {says}", "")?;
+            }
         }
     }
     if args.json {
-        let built_in = devices.iter().filter(|device| device.is_built_in).count();
-        let summary = json!({ "devices": devices.len(), "built_in": built_in, "found": found });
+        let there = devices.iter().filter(|device| device.spec.is_some()).count();
+        let count = devices.len();
+        let summary = json!({ "devices": count, "built_in": count, "there": there });
         json_line(out, &json!({ "summary": summary }))?;
     }
     Ok(Status::Success)
-}
-
-fn look_for(device: &Listed) -> There {
-    match HapticDevice::named(device.name) {
-        Some(named @ (HapticDevice::Haply(_) | HapticDevice::OpenHaptics(_))) => match open(&named)
-        {
-            Ok(Some(opened)) => There::Yes(opened.device.spec()),
-            Ok(None) => There::Always,
-            Err(why) => There::No(why.to_string()),
-        },
-        _ => There::Always,
-    }
-}
-
-fn line(device: &Listed, there: &There) -> Value {
-    let spec = match there {
-        There::Yes(spec) => Some(*spec),
-        There::Always | There::No(_) => device.spec,
-    };
-    let spec = spec.map(|spec| {
-        json!({
-            "model": spec.model,
-            "workspace_m": spec.workspace_m.to_array(),
-            "force_max_n": spec.force_max_n,
-            "force_continuous_n": spec.force_continuous_n,
-            "stiffness_max_n_m": spec.stiffness_max_n_m,
-            "rate_hz": spec.rate_hz,
-            "latency_s": spec.latency_s,
-        })
-    });
-    let (is_there, why) = match there {
-        There::Always => (None, None),
-        There::Yes(_) => (Some(true), None),
-        There::No(why) => (Some(false), Some(why)),
-    };
-    json!({
-        "name": device.name,
-        "about": device.about,
-        "built_in": device.is_built_in,
-        "spec": spec,
-        "found": is_there,
-        "why": why,
-    })
-}
-
-fn words(device: &Listed, there: &There) -> String {
-    match (there, device.spec) {
-        _ if !device.is_built_in => "not built in".to_string(),
-        (There::No(why), _) => format!("not found: {why}"),
-        (There::Yes(spec), _) => {
-            format!("found: {}, {:.1} ms late", numbers(spec), spec.latency_s * 1000.0)
-        }
-        (There::Always, Some(spec)) => format!("like a {}", numbers(&spec)),
-        (There::Always, None) => "like the one that was recorded".to_string(),
-    }
-}
-
-fn numbers(spec: &DeviceSpec) -> String {
-    format!(
-        "{}: {} N, {} N for long, {} N/m, {} Hz",
-        spec.model, spec.force_max_n, spec.force_continuous_n, spec.stiffness_max_n_m, spec.rate_hz
-    )
 }

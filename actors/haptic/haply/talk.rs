@@ -68,11 +68,9 @@ impl Shared {
             let heard = Duration::from_micros(self.heard_us.load(Ordering::Acquire));
             let silent = self.begun.elapsed().saturating_sub(heard);
             // Whoever asks has waited for as long as the servo has, or somewhat less.
-            (silent > SILENCE * 3 / 4).then(|| {
-                let for_ms = silent.as_millis();
-                let address = &self.address;
-                format!("the Haply service at {address} is silent for {for_ms} ms; restart it")
-            })
+            let address = &self.address;
+            (silent > SILENCE * 9 / 10)
+                .then(|| format!("the Haply service at {address} is silent; restart it"))
         })
     }
 
