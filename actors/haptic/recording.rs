@@ -19,8 +19,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Readings that wait at most: four seconds.
-const WAITING: usize = 4096;
+/// Readings that wait at most, should the disk stall: a minute.
+const WAITING: usize = 1 << 16;
 /// How long the writer sleeps.
 const SLEEP: Duration = Duration::from_millis(10);
 

@@ -21,9 +21,6 @@ use std::time::{Duration, Instant};
 /// What the arm is pushed with [N]: less than what the start ramp waits for.
 const PUSH_N: f64 = 0.1;
 
-const OLD: Arm = Arm { format: Format::Values, has_grip: false, greeting: None };
-const NEW: Arm = Arm { format: Format::Vector, has_grip: true, greeting: None };
-
 fn called(service: &HaplyService) -> Opened {
     open(&HapticDevice::Haply(Some(service.address()))).unwrap().unwrap()
 }
@@ -54,7 +51,7 @@ fn wait_for_nothing(service: &HaplyService) {
 
 #[test]
 fn both_formats_are_spoken_and_the_arm_is_felt() {
-    for arm in [OLD, NEW] {
+    for arm in [Arm::OLD, Arm::NEW] {
         let service = HaplyService::start(arm.clone(), Fault::None);
         let mut opened = called(&service);
         let spec = opened.device.spec();
@@ -85,7 +82,7 @@ fn both_formats_are_spoken_and_the_arm_is_felt() {
 
 #[test]
 fn reading_and_writing_neither_allocate_nor_wait() {
-    let service = HaplyService::start(NEW, Fault::None);
+    let service = HaplyService::start(Arm::NEW, Fault::None);
     let mut opened = called(&service);
     let before = calls();
     for _ in 0..100_000 {
@@ -113,7 +110,7 @@ fn is_calm(flags: SafetyFlags) -> bool {
 /// Breaks something, and expects what the player is told, no force, and whether it passes.
 fn break_and_mend(faults: &[(Fault, &str, bool)]) {
     for (fault, told, passes) in faults {
-        let service = HaplyService::start(NEW, Fault::None);
+        let service = HaplyService::start(Arm::NEW, Fault::None);
         let seat = seated(&service);
         let runtime = tokio();
         let control = {
@@ -190,7 +187,7 @@ fn a_connection_that_ends_is_not_made_again() {
 
 #[test]
 fn a_silent_service_is_told_that_no_force_is_meant() {
-    let service = HaplyService::start(NEW, Fault::None);
+    let service = HaplyService::start(Arm::NEW, Fault::None);
     let seat = seated(&service);
     let runtime = tokio();
     let control = {
@@ -219,7 +216,7 @@ fn a_silent_service_is_told_that_no_force_is_meant() {
 
 #[test]
 fn a_slow_service_is_felt_softer() {
-    let service = HaplyService::start(NEW, Fault::None);
+    let service = HaplyService::start(Arm::NEW, Fault::None);
     let seat = seated(&service);
     let stiff = |seat: &Seat| stiffness_for(seat.spec(), seat.device_late_s());
     let _heart = Heart::of(seat.signs());
@@ -267,15 +264,15 @@ fn an_arm_that_cannot_be_had_is_an_error_with_what_to_do() {
     check(&place, &["is no Haply Inverse service", "404", "10001"]);
     web.join().unwrap();
     // A service without an arm, or with one that cannot be used.
-    let greeting = |text: &str| Arm { greeting: Some(text.into()), ..NEW };
+    let greeting = |text: &str| Arm { greeting: Some(text.into()), ..Arm::NEW };
     for (arm, fault, says) in [
         (greeting("{}"), Fault::None, "its service sees no Inverse3"),
         (greeting("what?"), Fault::None, "port 10001 of a Haply Inverse service 3.1 or later"),
-        (NEW, Fault::Status("power_supply"), "plug in its power supply"),
-        (NEW, Fault::Status("calibrated"), "is not calibrated"),
-        (NEW, Fault::Half, "not understood"),
-        (NEW, Fault::Cut, "does not answer"),
-        (NEW, Fault::Silent, "silent for 2 s"),
+        (Arm::NEW, Fault::Status("power_supply"), "plug in its power supply"),
+        (Arm::NEW, Fault::Status("calibrated"), "is not calibrated"),
+        (Arm::NEW, Fault::Half, "not understood"),
+        (Arm::NEW, Fault::Cut, "does not answer"),
+        (Arm::NEW, Fault::Silent, "silent for 2 s"),
     ] {
         let service = HaplyService::start(arm, fault);
         check(&service.address(), &[says]);

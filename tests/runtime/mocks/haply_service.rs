@@ -66,6 +66,13 @@ pub struct Arm {
     pub greeting: Option<String>,
 }
 
+impl Arm {
+    /// At a service 3.1, without a grip.
+    pub const OLD: Arm = Arm { format: Format::Values, has_grip: false, greeting: None };
+    /// At a service 3.5, with one.
+    pub const NEW: Arm = Arm { format: Format::Vector, has_grip: true, greeting: None };
+}
+
 impl HaplyService {
     /// A service with an arm in a hand that rests 30 mm to the right of the middle.
     pub fn start(arm: Arm, fault: Fault) -> Self {
