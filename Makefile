@@ -49,6 +49,7 @@ setup:
 
 early:
 	$(CARGO) fmt --all --check
+	rustfmt --edition 2024 --check tests/stub_hd/hd.rs
 	$(CARGO) test --quiet --locked --package hapticbillard
 
 featureless:

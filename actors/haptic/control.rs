@@ -5,7 +5,7 @@ use super::seat::{Held, Seat};
 use hapticbillard::ball::BallPlace;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::Health;
-use hapticbillard::haptic::{SafetyFlags, ServoReport, stiffness_for};
+use hapticbillard::haptic::{DeviceStatus, SafetyFlags, ServoReport, stiffness_for};
 use hapticbillard::ids::BallId;
 use kameo::prelude::*;
 use std::sync::Arc;
@@ -54,7 +54,12 @@ impl Message<Look> for Haptic {
         let report = self.held.report();
         self.adapt();
         self.follow(&report);
-        let news = self.news(report.flags);
+        // Where nobody holds the dead man's switch the device may be well all the same.
+        let flags = match report.sample.device.status {
+            DeviceStatus::Ready => report.flags.without(SafetyFlags::DISCONNECTED),
+            DeviceStatus::Warm | DeviceStatus::Lost => report.flags,
+        };
+        let news = self.news(flags);
         Looked { report, stiffness_max_n_m: self.held.orders().stiffness_max_n_m, news }
     }
 }

@@ -112,6 +112,11 @@ impl SafetyFlags {
         self.0 & flags.0 == flags.0
     }
 
+    /// These without `flags`.
+    pub fn without(self, flags: SafetyFlags) -> SafetyFlags {
+        SafetyFlags(self.0 & !flags.0)
+    }
+
     /// Sets `flags` if `on`.
     pub fn set(&mut self, flags: SafetyFlags, on: bool) {
         if on {

@@ -71,6 +71,7 @@ fn devices_are_listed_and_what_is_not_there_says_why() {
     assert_eq!(is("mouse")["spec"]["force_max_n"], 3.3);
     assert!(is("haply")["built_in"] == true && is("haply")["says"].is_string());
     assert_eq!(lines.last().unwrap()["summary"]["devices"], 5);
+    assert_eq!(is("openhaptics")["built_in"], true);
     let plain = program(&["haptic", "devices"]);
     let told = text(&plain.stdout);
     // Wherever this runs, its service runs or does not.

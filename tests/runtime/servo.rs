@@ -317,7 +317,7 @@ fn a_killed_control_leaves_no_force_another_one_takes_over_and_the_end_is_quiet(
 }
 
 /// Asks until the control has news; returns the reason.
-pub fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
+fn reason(runtime: &tokio::runtime::Runtime, control: &ActorRef<Haptic>) -> String {
     let mut reason = String::new();
     wait_for("news", || {
         let looked = runtime.block_on(control.ask(Look).send()).unwrap();

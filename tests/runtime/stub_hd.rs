@@ -30,6 +30,9 @@ fn build(name: &str, more: &[&str]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let file =
         format!("{}stub_hd_{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    if is_fresh(&folder.join(&file), &[&source, &std::env::current_exe().unwrap()]) {
+        return folder.join(file);
+    }
     let built = folder.join(format!("{}_{file}", std::process::id()));
     let output = Command::new(&compiler)
         .args(["--edition", "2024", "--crate-type", "cdylib", "--crate-name", "stub_hd"])
@@ -45,6 +48,12 @@ fn build(name: &str, more: &[&str]) -> PathBuf {
     let file = folder.join(file);
     std::fs::rename(&built, &file).unwrap();
     file
+}
+
+/// Whether a file is younger than what it is made of.
+fn is_fresh(file: &Path, of: &[&Path]) -> bool {
+    let made = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
+    made(file).is_some_and(|file| of.iter().all(|of| made(of).is_some_and(|of| of < file)))
 }
 
 /// A copy of the stub that this test alone uses.
