@@ -102,7 +102,6 @@ pub fn open(address: &str, patience: Duration) -> Result<Opened, NoHaply> {
     let shared = Arc::new(Shared::new(address));
     let talk = Talk::begin(line, states, forces, shared.clone(), patience)?;
     let spec = talk.spec();
-    log::info!("Haply at {address}: {spec:?}");
     let builder = std::thread::Builder::new().name("haply".to_string());
     let thread =
         builder.spawn(move || talk.run()).map_err(|error| NoHaply::NoThread(error.to_string()))?;
@@ -166,5 +165,28 @@ impl Explain for Shared {
 
     fn late_s(&self) -> Seconds {
         Shared::late_s(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn after_50_ms_without_a_state_the_device_is_lost_and_with_the_next_it_is_not() {
+        let (mut said, states) = triple_buffer::triple_buffer(&DeviceState::default());
+        let (forces, _) = triple_buffer::triple_buffer(&Force::ZERO);
+        let shared = Arc::new(Shared::new(ADDRESS));
+        let spec = hapticbillard::haptic::INVERSE3;
+        let mut device = HaplyDevice { spec, states, forces, quiet_s: 0.0, shared, thread: None };
+        let mut statuses = |n: u32, dt| (0..n).map(|_| device.read(dt).status).collect::<Vec<_>>();
+        for _ in 0..3 {
+            said.write(DeviceState::default());
+            assert_eq!(statuses(50, 0.001), [DeviceStatus::Ready; 50]);
+            assert_eq!(statuses(5, 0.0011), [DeviceStatus::Lost; 5]);
+        }
+        // A servo that slept itself finds the state that came meanwhile.
+        said.write(DeviceState::default());
+        assert_eq!(statuses(1, 10.0), [DeviceStatus::Ready]);
     }
 }

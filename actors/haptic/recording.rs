@@ -1,8 +1,9 @@
 //! Recordings of devices as files.
 //!
-//! What a device says goes into a ring, and a thread of its own writes it down. The servo never touches the file. A full ring loses readings, which are counted; the time that
-//! they took is kept. The file has its name only when it is whole; what a crash leaves behind is
-//! named `….part`, and holds all but the last hundredth of a second.
+//! What a device says goes into a ring, and a thread of its own writes it down. The servo never
+//! touches the file. A full ring loses readings, which are counted; the time that they took is
+//! kept. The file has its name only when it is whole; what a crash leaves behind is named `….part`,
+//! and holds all but the last hundredth of a second.
 
 use super::device::{NoDevice, Opened};
 use crate::error::Error;

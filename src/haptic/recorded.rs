@@ -30,11 +30,6 @@ impl RecordedDevice {
         RecordedDevice { recording, at: 0, at_s: 0.0, time_s: 0.0, is_begun: false, is_over: false }
     }
 
-    /// Whether everything has been said.
-    pub fn is_over(&self) -> bool {
-        self.is_over
-    }
-
     fn said(&self) -> DeviceState {
         self.recording.readings.get(self.at).map(|reading| reading.state).unwrap_or_default()
     }

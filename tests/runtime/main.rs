@@ -10,6 +10,8 @@ mod cli;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
+/// Recordings of haptic devices as files.
+mod device_recordings;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;

@@ -158,6 +158,8 @@ impl Talk {
             return Err(silent(talk.shared.why().unwrap_or_else(waited)));
         }
         talk.shared.usual_ns.store(talk.shared.delays.quantile(0.5), Ordering::Release);
+        let (name, format) = (talk.arm.name(), talk.arm.format());
+        log::info!("Haply at {address}: arm {name}, {format:?}, {:?}", talk.spec());
         Ok(talk)
     }
 
