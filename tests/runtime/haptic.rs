@@ -204,6 +204,13 @@ fn a_scene_says_what_its_servo_will_get() {
     let json = lines(&program(&["scene", "haptic_touch", "--json"]).stdout);
     let servo = &json.last().unwrap()["summary"]["servo"];
     assert_eq!([&servo["priority"], &servo["spin_us"]], [80, 100]);
+    let file = folder("haptic_scene").join("omni.toml");
+    let own = "[scene]\nname = \"x\"\n[physics]\n[haptic]\ndevice = \"openhaptics\"\n";
+    fs::write(&file, own).unwrap();
+    let told = program(&["scene", file.to_str().unwrap()]);
+    for part in ["servo in the scheduler of the device's library", "80: the vendor's scheduler"] {
+        assert!(text(&told.stdout).contains(part), "{told:?}");
+    }
     let none = lines(&program(&["scene", "eight_ball", "--json"]).stdout);
     assert!(none.last().unwrap()["summary"]["servo"].is_null());
 }

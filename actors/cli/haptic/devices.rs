@@ -59,7 +59,8 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
         } else {
             let how = match device.spec {
                 Some(spec) => format!(
-                    "like a {}: {} N, {} N for long, {} N/m, {} Hz",
+                    "{}{}: {} N, {} N for long, {} N/m, {} Hz",
+                    if device.says.is_some() { "" } else { "like a " },
                     spec.model,
                     spec.force_max_n,
                     spec.force_continuous_n,

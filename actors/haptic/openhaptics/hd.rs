@@ -92,11 +92,11 @@ macro_rules! functions {
             ///
             /// # Errors
             /// The name of the first that is missing, and what the system says.
-            pub fn bind(library: &'static Library) -> Result<Self, (&'static str, String)> {
+            pub fn bind(library: &'static Library) -> Result<Self, (&'static str, libloading::Error)> {
                 $(
                     // SAFETY: the type is that of the function of this name in `hd.h`.
                     let $name = unsafe { library.get($symbol) };
-                    let $name = *$name.map_err(|error| ($symbol, error.to_string()))?;
+                    let $name = *$name.map_err(|error| ($symbol, error))?;
                 )*
                 Ok(Hd { $($name,)* })
             }

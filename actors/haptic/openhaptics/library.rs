@@ -7,6 +7,7 @@
 use super::NoOpenHaptics;
 use super::hd::Hd;
 use libloading::Library;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 /// The environment variable that names the library. A scene cannot: it is data, and must not
@@ -49,18 +50,25 @@ pub fn load(library: Option<&Path>) -> Result<Loaded, NoOpenHaptics> {
     for name in names {
         match open(name) {
             Ok(library) => return bind(library, name),
-            Err(error) => tried.push(format!("{} ({error})", name.display())),
+            Err(error) => tried.push(format!("{} ({})", name.display(), reason(name, &error))),
         }
     }
     Err(NoOpenHaptics::NoLibrary { tried: tried.join(", ") })
 }
 
+/// What the system says, without the name that it says it about.
+fn reason(name: &Path, error: &libloading::Error) -> String {
+    let reason = error.source().map_or(error.to_string(), ToString::to_string);
+    let about = format!("{}: ", name.display());
+    reason.strip_prefix(&about).map_or(reason.clone(), String::from)
+}
+
 fn bind(library: Library, name: &Path) -> Result<Loaded, NoOpenHaptics> {
     let library: &'static Library = Box::leak(Box::new(library));
-    let hd = Hd::bind(library).map_err(|(function, reason)| NoOpenHaptics::NoFunction {
+    let hd = Hd::bind(library).map_err(|(function, error)| NoOpenHaptics::NoFunction {
         library: name.display().to_string(),
         function,
-        reason,
+        reason: reason(name, &error),
     })?;
     Ok(Loaded { hd: Box::leak(Box::new(hd)), name: Box::leak(name.into()) })
 }
