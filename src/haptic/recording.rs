@@ -270,7 +270,7 @@ impl Spec {
             number(key, value, "a number above 0", 0.0 < value && value < 1e9)?;
         }
         for (key, value) in not_negative {
-            number(key, value, "a number from 0 on", 0.0 <= value && value < 1e9)?;
+            number(key, value, "a number from 0 on", (0.0..1e9).contains(&value))?;
         }
         let rate = self.rate_hz;
         number("rate_hz", rate, "a number from 100 to 10000", (100.0..=10_000.0).contains(&rate))?;

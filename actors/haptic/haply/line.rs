@@ -106,8 +106,12 @@ fn is_only_late(kind: ErrorKind) -> bool {
 
 /// The first of the places of this name where somebody listens.
 fn reach(address: &str, patience: Duration) -> std::io::Result<TcpStream> {
-    let nowhere = std::io::Error::new(ErrorKind::NotFound, "the name has no place");
-    address.to_socket_addrs()?.fold(Err(nowhere), |reached, place| {
-        reached.or_else(|_| TcpStream::connect_timeout(&place, patience))
-    })
+    let mut failure = std::io::Error::new(ErrorKind::NotFound, "the name has no place");
+    for place in address.to_socket_addrs()? {
+        match TcpStream::connect_timeout(&place, patience) {
+            Ok(stream) => return Ok(stream),
+            Err(error) => failure = error,
+        }
+    }
+    Err(failure)
 }
