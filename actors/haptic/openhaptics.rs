@@ -1,5 +1,5 @@
-//! PHANTOM Omni, Touch and their relatives: devices of SensAble and 3D Systems, by the HD library of
-//! OpenHaptics, which is loaded at run time and belongs to whoever has the device.
+//! PHANTOM Omni, Touch and their relatives: devices of SensAble and 3D Systems, by the HD library
+//! of OpenHaptics, which is loaded at run time and belongs to whoever has the device.
 //!
 //! The library's scheduler calls the servo ([`Called`](super::Called)), once per tick and device,
 //! on a thread whose core and priority are the vendor's affair. What the device reports makes its

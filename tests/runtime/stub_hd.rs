@@ -1,6 +1,6 @@
-//! The stub of the vendor's HD library (`tests/stub_hd`): built once, and loaded anew by every test,
-//! since a library is loaded only once into a process. Its script is set, and its log read, through
-//! functions of its own.
+//! The stub of the vendor's HD library (`tests/stub_hd`): built once, and loaded anew by every
+//! test, since a library is loaded only once into a process. Its script is set, and its log read,
+//! through functions of its own.
 
 #![allow(unsafe_code)]
 
@@ -30,7 +30,8 @@ fn build(name: &str, more: &[&str]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let file =
         format!("{}stub_hd_{name}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    if is_fresh(&folder.join(&file), &[&source, &std::env::current_exe().unwrap()]) {
+    let sources = [&source, &source.with_file_name("script.rs"), &std::env::current_exe().unwrap()];
+    if is_fresh(&folder.join(&file), &sources) {
         return folder.join(file);
     }
     let built = folder.join(format!("{}_{file}", std::process::id()));
@@ -51,7 +52,7 @@ fn build(name: &str, more: &[&str]) -> PathBuf {
 }
 
 /// Whether a file is younger than what it is made of.
-fn is_fresh(file: &Path, of: &[&Path]) -> bool {
+fn is_fresh(file: &Path, of: &[&PathBuf]) -> bool {
     let made = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
     made(file).is_some_and(|file| of.iter().all(|of| made(of).is_some_and(|of| of < file)))
 }

@@ -31,9 +31,9 @@ Work is the thread's own processor time per tick. It exits with 1 if more than o
 worked for more than half a millisecond, which is the servo's own making, or if the device is not
 ready at the end.
 
-A real device is pushed, and with its whole force where its stylus is moved against a ball: hold it.
-Where a vendor's library has a scheduler of its own, that one turns the servo; --core, --priority and
---spin-us are its affair then, and lateness is from one period after the last tick.
+A real device is pushed, and with its whole force where its stylus is moved against a ball: hold
+it. Where a vendor's library has a scheduler of its own, that one turns the servo; --core,
+--priority and --spin-us are its affair then, and lateness is from one period after the last tick.
 
 With --record what the device says is written down, tick by tick; --device recorded:FILE says it
 again, here or in a scene. Ctrl-C ends early and loses nothing.

@@ -8,12 +8,12 @@ const NODES: [&str; 4] = ["fw", "raw1394", "ttyACM", "hidraw"];
 /// A sentence about the nodes that are closed to this user, or that there are none.
 #[cfg(target_os = "linux")]
 pub fn hint() -> String {
+    use crate::files::names_in;
     use rustix::fs::{Access, access};
-    let names = std::fs::read_dir("/dev").into_iter().flatten().flatten();
-    let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    use std::path::Path;
     let is_open =
         |name: &str| access(format!("/dev/{name}"), Access::READ_OK | Access::WRITE_OK).is_ok();
-    about(names.collect(), is_open)
+    about(names_in(Path::new("/dev")), is_open)
 }
 
 /// Elsewhere nodes are the driver's own affair.

@@ -5,7 +5,7 @@
 
 #![allow(unsafe_code)]
 
-use libloading::Library;
+use libloading::{Error, Library};
 use std::ffi::{CStr, c_char, c_ulong, c_void};
 
 /// `HHD`, which device.
@@ -92,7 +92,7 @@ macro_rules! functions {
             ///
             /// # Errors
             /// The name of the first that is missing, and what the system says.
-            pub fn bind(library: &'static Library) -> Result<Self, (&'static str, libloading::Error)> {
+            pub fn bind(library: &'static Library) -> Result<Self, (&'static str, Error)> {
                 $(
                     // SAFETY: the type is that of the function of this name in `hd.h`.
                     let $name = unsafe { library.get($symbol) };
