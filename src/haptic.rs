@@ -4,6 +4,10 @@
 //! and of the newest [`HapticScene`]. Whoever has a clock calls it: a real-time thread, the
 //! callback of a vendor's library, or a test. It never allocates, locks, logs, blocks or panics.
 //!
+//! Behind the servo stands a [`Device`]: a simulated one, a recorded one ([`RecordedDevice`]), or a
+//! real one, whose messages are read here where they are text ([`Inverse3`]), and which others talk
+//! to.
+//!
 //! Two frames. The *device frame* has its origin in the middle of the workspace, x to the right, y
 //! up, z towards the user [m]; effects, devices and forces live in it. The *world* is the game's,
 //! z up; balls, table and tip live in it. The [`Reach`] says how one is laid into the other.

@@ -84,10 +84,7 @@ impl Shared {
     }
 
     fn set_why(&self, why: Option<String>) {
-        let mut told = self.why.lock().unwrap_or_else(PoisonError::into_inner);
-        if *told != why {
-            *told = why;
-        }
+        *self.why.lock().unwrap_or_else(PoisonError::into_inner) = why;
     }
 
     fn note_heard(&self) {
@@ -110,6 +107,8 @@ pub struct Talk {
     heard: Instant,
     /// Answers that have not come yet.
     owed: u32,
+    /// What others were told last.
+    told: Option<String>,
 }
 
 impl Talk {
@@ -143,6 +142,7 @@ impl Talk {
             said: now,
             heard: now,
             owed: 0,
+            told: None,
         };
         talk.arm.greeting(&mut talk.text);
         talk.say().map_err(silent)?;
@@ -229,12 +229,20 @@ impl Talk {
             Ok(state) => {
                 self.heard = now;
                 self.state = Some(state);
-                self.shared.set_why(self.arm.trouble().map(ToString::to_string));
+                self.tell(self.arm.trouble().map(ToString::to_string));
                 self.shared.note_heard();
                 self.states.write(state);
             }
             // The servo waits for a better one, for a while.
-            Err(trouble) => self.shared.set_why(Some(trouble.to_string())),
+            Err(trouble) => self.tell(Some(trouble.to_string())),
+        }
+    }
+
+    /// Others are told what is new, and not held up by what is not.
+    fn tell(&mut self, why: Option<String>) {
+        if self.told != why {
+            self.shared.set_why(why.clone());
+            self.told = why;
         }
     }
 
@@ -258,7 +266,7 @@ impl Talk {
              service, then the game again"
         );
         log::warn!("{why}");
-        self.shared.set_why(Some(why));
+        self.tell(Some(why));
         let state = self.state.unwrap_or_default();
         self.states.write(DeviceState { status: DeviceStatus::Lost, ..state });
     }
