@@ -1,17 +1,18 @@
 //! The actor of a computer player.
 
+use crate::kept::{Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::ai::Player;
 use kameo::prelude::*;
 
-/// Owns one computer player.
+/// Plays for one computer player, who outlives it.
 #[derive(Actor)]
-pub struct Ai(pub Player);
+pub struct Ai(pub Shared<Saved<Player>>);
 
 impl Message<Mail> for Ai {
     type Reply = Answer;
 
     async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        collect(&mut self.0, &mail)
+        self.0.borrow().work(|player| collect(player, &mail))
     }
 }

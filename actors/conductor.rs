@@ -7,7 +7,7 @@
 
 use crate::event_manager::{DeliveryError, EventManager, Seal};
 use crate::haptic::Signs;
-use crate::input::{Entered, FrameOf};
+use crate::input::AskFrame;
 use crate::physics::{Advance, Coast, Moved, Physics};
 use crate::recorder::{Keeper, Lost};
 use hapticbillard::events::Health;
@@ -67,7 +67,7 @@ pub struct Below {
     /// The event manager.
     pub events: ActorRef<EventManager>,
     /// Whoever acts from outside, or stands in for them.
-    pub input: Option<ReplyRecipient<FrameOf, Entered>>,
+    pub input: Option<AskFrame>,
     /// Hands the recording over to whoever writes it.
     pub recording: Option<Keeper>,
     /// What to check the run against.
@@ -75,7 +75,7 @@ pub struct Below {
     /// Who wants to know that time stands still on purpose: a haptic servo.
     pub signs: Option<Arc<Signs>>,
     /// What the player should be told about the runtime, from outside the tick.
-    pub news: Option<flume::Receiver<Health>>,
+    pub news: flume::Receiver<Health>,
 }
 
 /// Owns the clock.
@@ -184,9 +184,7 @@ impl Message<EndRecording> for Conductor {
 impl Conductor {
     /// One tick, from frame to answers; or a coast that met nothing.
     async fn step(&mut self) -> Result<Progress, RunError> {
-        if let Some(news) = &self.below.news {
-            self.health.extend(news.try_iter());
-        }
+        self.health.extend(self.below.news.try_iter());
         if !self.primed {
             self.primed = true;
             self.inflow(Tick(0)).await?;
@@ -248,7 +246,7 @@ impl Conductor {
         let Some(input) = &self.below.input else {
             return Ok(Inflow::default());
         };
-        let inflow = input.ask(FrameOf(tick)).send().await.map_err(|e| self.gone("input", e))?.0;
+        let inflow = input(tick).await.map_err(|reason| self.gone("input", reason))?;
         self.next_frame = inflow.next;
         self.hurried = inflow.hurried;
         Ok(inflow)

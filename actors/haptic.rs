@@ -14,6 +14,8 @@ mod keeper;
 pub mod openhaptics;
 mod ports;
 mod recording;
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 mod rights;
 mod seat;
 mod stylus;
@@ -26,6 +28,7 @@ pub use control::{Haptic, Look, Looked, allowed};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
 pub use haply::NoHaply;
 pub use keeper::{Keeper, keep};
+pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
     AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
 };

@@ -2,14 +2,18 @@
 //!
 //! Both answer [`FrameOf`]: everything that enters a game from outside enters here.
 
+use crate::haptic::{FeltMouse, Stylus};
+use crate::kept::{Kept, Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::StateHash;
-use hapticbillard::input::{Human, HumanView, RawInput};
+use hapticbillard::input::{Human, HumanView, RawInput, StylusWord};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
 use hapticbillard::units::Tick;
 use kameo::prelude::*;
+use std::pin::Pin;
+use std::sync::Arc;
 
 /// What enters in this tick? The conductor asks it before every tick that has a frame.
 pub struct FrameOf(pub Tick);
@@ -23,15 +27,15 @@ pub trait Hand: FrameSource + Participant {}
 
 impl<H: FrameSource + Participant> Hand for H {}
 
-/// The actor of a hand.
+/// The actor of a hand, which outlives it.
 #[derive(Actor)]
-pub struct Input(pub Box<dyn Hand>);
+pub struct Input(pub Shared<Box<dyn Hand>>);
 
 impl Message<FrameOf> for Input {
     type Reply = Entered;
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
-        Entered(self.0.inflow(message.0))
+        Entered(self.0.borrow().inflow(message.0))
     }
 }
 
@@ -39,31 +43,57 @@ impl Message<Mail> for Input {
     type Reply = Answer;
 
     async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        collect(&mut *self.0, &mail)
+        collect(&mut **self.0.borrow(), &mail)
     }
 }
 
 /// Somebody who acts from outside and hears nothing: a recording, a script.
 #[derive(Actor)]
-pub struct StandIn(pub Box<dyn FrameSource>);
+pub struct StandIn(pub Shared<Box<dyn FrameSource>>);
 
 impl Message<FrameOf> for StandIn {
     type Reply = Entered;
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
-        Entered(self.0.inflow(message.0))
+        Entered(self.0.borrow().inflow(message.0))
     }
 }
 
-/// A hand at the mouse and keyboard of a window.
+/// Asks for a tick's frame; an error says why there is nobody any more.
+pub type AskFrame = Box<dyn Fn(Tick) -> Awaited + Send + Sync>;
+
+/// A frame to come.
+pub type Awaited = Pin<Box<dyn Future<Output = Result<Inflow, String>> + Send>>;
+
+/// The door to whoever is in this place. What devices said to one who died is lost with it.
+pub fn frame_door<A: Message<FrameOf, Reply = Entered>>(kept: Arc<Kept<A>>) -> AskFrame {
+    Box::new(move |tick| {
+        let kept = kept.clone();
+        Box::pin(async move {
+            let actor = kept.actor();
+            let reason = match actor.ask(FrameOf(tick)).await {
+                Ok(entered) => return Ok(entered.0),
+                Err(error) => error.to_string(),
+            };
+            let Some(other) = kept.instead_of(&actor, &reason) else { return Err(reason) };
+            let entered = other.ask(FrameOf(tick)).await;
+            entered.map(|entered| entered.0).map_err(|error| error.to_string())
+        })
+    })
+}
+
+/// A hand at the mouse and keyboard of a window, and at a stylus where there is one.
 pub struct WindowHand {
-    core: Human,
+    core: Saved<Human>,
     /// What devices say. The window bounds the channel; when it is full it keeps movements, which
     /// add up, and waits with buttons.
     raw: flume::Receiver<RawInput>,
     /// What the hand sees and does, for the picture: only the newest counts.
     view: triple_buffer::Input<HumanView>,
     buffer: Vec<RawInput>,
+    stylus: Option<Stylus>,
+    /// The hand at the haptic device that the mouse moves.
+    felt: Option<FeltMouse>,
 }
 
 impl WindowHand {
@@ -73,7 +103,25 @@ impl WindowHand {
         raw: flume::Receiver<RawInput>,
         view: triple_buffer::Input<HumanView>,
     ) -> Self {
-        WindowHand { core, raw, view, buffer: Vec::new() }
+        let core = Saved::new(core);
+        WindowHand { core, raw, view, buffer: Vec::new(), stylus: None, felt: None }
+    }
+
+    /// The same with a stylus, and the way of the mouse into its hand, if one leads there.
+    #[must_use]
+    pub fn with_stylus(mut self, stylus: Stylus, felt: Option<FeltMouse>) -> Self {
+        let core = self.core.get().clone().with_stylus();
+        let core = if felt.is_some() { core.whose_mouse_is_the_stylus() } else { core };
+        self.core = Saved::new(core);
+        (self.stylus, self.felt) = (Some(stylus), felt);
+        self
+    }
+
+    /// What the stylus says in this tick.
+    fn word(&mut self, tick: Tick) -> Option<StylusWord> {
+        let is_paused = self.core.get().is_paused();
+        let stylus = self.stylus.as_mut()?;
+        if is_paused { stylus.rest() } else { stylus.word(tick) }
     }
 }
 
@@ -81,30 +129,41 @@ impl FrameSource for WindowHand {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.buffer.clear();
         self.buffer.extend(self.raw.try_iter());
-        let inflow = self.core.inflow(tick, &self.buffer);
-        self.view.write(self.core.view());
+        if let Some(felt) = &mut self.felt {
+            self.buffer.iter().for_each(|report| felt.hear(report));
+        }
+        let word = self.word(tick);
+        let buffer = &self.buffer;
+        let (inflow, turn) = self.core.work(|core| {
+            let inflow = core.inflow_beside(tick, buffer, word.as_ref());
+            (inflow, core.take_turn())
+        });
+        if let Some(stylus) = &self.stylus {
+            stylus.turn(turn);
+        }
+        self.view.write(self.core.get().view());
         inflow
     }
 }
 
 impl Participant for WindowHand {
     fn source(&self) -> Source {
-        self.core.source()
+        self.core.get().source()
     }
 
     fn topics(&self) -> Topics {
-        self.core.topics()
+        self.core.get().topics()
     }
 
     fn start(&mut self, table: &Snapshot) -> Outcome {
-        self.core.start(table)
+        self.core.work(|core| core.start(table))
     }
 
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        self.core.collect(delivered)
+        self.core.work(|core| core.collect(delivered))
     }
 
     fn hash(&self, hash: &mut StateHash) {
-        self.core.hash(hash);
+        self.core.get().hash(hash);
     }
 }

@@ -12,6 +12,8 @@ pub mod cpu_time;
 
 pub mod batch;
 
+pub mod kept;
+
 pub mod participant;
 
 pub mod event_manager;

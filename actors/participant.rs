@@ -3,6 +3,7 @@
 //! Whoever implements `Message<Delivered>` is a listener, the paper's `AbstractEventListener`; the
 //! runtime registers it when it spawns it. A mock is any actor that answers [`Mail`].
 
+use crate::kept::Kept;
 use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::physics::Snapshot;
@@ -10,6 +11,7 @@ use hapticbillard::tick::{Delivered, Outcome, Participant};
 use kameo::error::SendError;
 use kameo::prelude::*;
 use kameo::request::PendingReply;
+use std::sync::Arc;
 
 /// The mail of one tick.
 #[derive(Debug, Clone)]
@@ -27,6 +29,9 @@ pub struct Answer {
 /// Puts mail into a participant's mailbox at once and returns the answer to come.
 pub type Ask = Box<dyn Fn(Mail) -> Asked + Send + Sync + 'static>;
 
+/// Asks whoever takes the place of somebody who died for this reason.
+pub type Again = Box<dyn FnOnce(&str) -> Asked + Send>;
+
 /// What came of the mail.
 pub type Answered = Result<Answer, SendError<Mail>>;
 
@@ -34,6 +39,8 @@ pub type Answered = Result<Answer, SendError<Mail>>;
 pub enum Asked {
     /// The mail is in the mailbox.
     Pending(PendingReply<Mail, Answer>),
+    /// The same, and who dies over it is replaced and asked again.
+    Kept(PendingReply<Mail, Answer>, Again),
     /// The participant is gone, or its mailbox is full.
     Refused(Box<SendError<Mail>>),
 }
@@ -46,8 +53,15 @@ impl Asked {
     /// It is asked once a tick and answers before the next, so a full mailbox means that somebody
     /// else writes to it.
     pub async fn answer(self) -> Answered {
-        match self {
-            Asked::Pending(answer) => answer.await,
+        let again = match self {
+            Asked::Kept(answer, again) => match answer.await {
+                Ok(answer) => return Ok(answer),
+                Err(error) => again(&error.to_string()),
+            },
+            asked => asked,
+        };
+        match again {
+            Asked::Pending(answer) | Asked::Kept(answer, _) => answer.await,
             Asked::Refused(error) => Err(*error),
         }
     }
@@ -67,20 +81,42 @@ pub struct Seat {
 
 /// The door to an actor that answers [`Mail`].
 pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
+    Box::new(move |mail| put(&actor, mail))
+}
+
+/// The door to whoever is in this place.
+pub fn kept_door<A: Message<Mail, Reply = Answer>>(kept: Arc<Kept<A>>) -> Ask {
     Box::new(move |mail| {
-        // Kameo's `try_enqueue` panics where mail is refused, so it is looked at before. Between
-        // two ticks a participant has nothing to do that it could die of.
-        if !actor.is_alive() {
-            return Asked::Refused(Box::new(SendError::ActorNotRunning(mail)));
-        }
-        if actor.mailbox_sender().capacity() == Some(0) {
-            return Asked::Refused(Box::new(SendError::MailboxFull(mail)));
-        }
-        match actor.ask(mail).try_enqueue() {
-            Ok(answer) => Asked::Pending(answer),
-            Err(_) => Asked::Refused(Box::new(SendError::ActorStopped)),
+        let actor = kept.actor();
+        let again = {
+            let (kept, actor, mail) = (kept.clone(), actor.clone(), mail.clone());
+            move |reason: &str| match kept.instead_of(&actor, reason) {
+                Some(other) => put(&other, mail),
+                None => Asked::Refused(Box::new(SendError::ActorNotRunning(mail))),
+            }
+        };
+        match put(&actor, mail) {
+            Asked::Pending(answer) => Asked::Kept(answer, Box::new(again)),
+            Asked::Refused(error) => again(&error.to_string()),
+            asked => asked,
         }
     })
+}
+
+/// Puts mail into the mailbox of an actor.
+fn put<A: Message<Mail, Reply = Answer>>(actor: &ActorRef<A>, mail: Mail) -> Asked {
+    // Kameo's `try_enqueue` panics where mail is refused, so it is looked at before. Between
+    // two ticks a participant has nothing to do that it could die of.
+    if !actor.is_alive() {
+        return Asked::Refused(Box::new(SendError::ActorNotRunning(mail)));
+    }
+    if actor.mailbox_sender().capacity() == Some(0) {
+        return Asked::Refused(Box::new(SendError::MailboxFull(mail)));
+    }
+    match actor.ask(mail).try_enqueue() {
+        Ok(answer) => Asked::Pending(answer),
+        Err(_) => Asked::Refused(Box::new(SendError::ActorStopped)),
+    }
 }
 
 /// Hands `mail` to a core.

@@ -8,14 +8,17 @@ use crate::ai::Ai;
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
 use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
-use crate::input::{Hand, Input, StandIn};
+use crate::input::{Hand, Input, StandIn, frame_door};
+use crate::kept::{Kept, Saved, Shared};
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
-use crate::participant::{self, Answer, Mail, Seat, door};
+use crate::participant::{self, Answer, Mail, Seat, door, kept_door};
 use crate::physics::Physics;
 use crate::recorder::{Keeper, Open, Recorder};
 use crate::rules::Rules;
+use hapticbillard::ai::Player;
 use hapticbillard::cast::Cast;
+use hapticbillard::events::Health;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -60,6 +63,8 @@ pub struct Setup {
     pub workers: usize,
     /// Ends the game between two ticks.
     pub stop: StopFlag,
+    /// Who wants to know of every actor.
+    pub crew: Crew,
 }
 
 /// Who acts from outside.
@@ -101,6 +106,46 @@ impl Setup {
             physics_thread: false,
             workers: 1,
             stop: StopFlag::default(),
+            crew: Crew::default(),
+        }
+    }
+}
+
+/// Spawns the actors of the tick, and tells of each whoever supervises them.
+#[derive(Clone, Default)]
+pub struct Crew(pub Option<flume::Sender<Member>>);
+
+/// One of the crew.
+pub struct Member {
+    /// Its name.
+    pub name: &'static str,
+    kill: Box<dyn Fn() + Send>,
+}
+
+impl Member {
+    /// Kills it, if it lives.
+    pub fn kill(&self) {
+        (self.kill)();
+    }
+}
+
+impl Crew {
+    fn join<A: Actor<Args = A>>(&self, name: &'static str, actor: A) -> ActorRef<A> {
+        let actor = A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX));
+        self.tell(name, &actor);
+        actor
+    }
+
+    fn tell<A: Actor>(&self, name: &'static str, actor: &ActorRef<A>) {
+        if let Some(told) = &self.0 {
+            let actor = actor.downgrade();
+            let kill = Box::new(move || {
+                if let Some(actor) = actor.upgrade() {
+                    actor.kill();
+                }
+            });
+            // Whoever has left need not know.
+            let _ = told.send(Member { name, kill });
         }
     }
 }
@@ -125,38 +170,49 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let Cast { simulation, referee, players, .. } = cast;
     let table = simulation.snapshot(0.0);
 
+    let crew = setup.crew;
+    let (tell, news) = flume::bounded(NEWS);
+
     // Participants, in the order in which they are registered.
     let mut seats = Vec::new();
-    seats.extend(referee.map(|core| take_seat(core, Rules, &table)));
-    seats.extend(players.into_iter().map(|core| take_seat(core, Ai, &table)));
-    seats.extend(setup.observers.into_iter().map(|core| take_seat(core, Observer, &table)));
+    seats.extend(
+        referee.map(|core| take_seat(core, |core| crew.join("rules", Rules(core)), &table)),
+    );
+    seats.extend(players.into_iter().map(|core| keep_player(core, &crew, &tell, &table)));
+    let observer = |core| crew.join("observer", Observer(core));
+    seats.extend(setup.observers.into_iter().map(|core| take_seat(core, observer, &table)));
 
     let input = match setup.input {
         InputPort::None => None,
-        InputPort::StandIn(source) => Some(spawn(StandIn(source)).reply_recipient()),
+        InputPort::StandIn(source) => {
+            let (source, crew) = (Shared::new(source), crew.clone());
+            let spawn = move || crew.join("input", StandIn(source.clone()));
+            Some(frame_door(Arc::new(Kept::new("input", spawn, tell.clone()))))
+        }
         InputPort::Hand(mut core) => {
             let (source, topics) = (core.source(), core.topics());
             let first = participant::start(&mut *core, &table);
-            let actor = spawn(Input(core));
-            seats.push(Seat { source, topics, first, ask: door(actor.clone()) });
-            Some(actor.reply_recipient())
+            let (core, crew) = (Shared::new(core), crew.clone());
+            let spawn = move || crew.join("input", Input(core.clone()));
+            let kept = Arc::new(Kept::new("input", spawn, tell.clone()));
+            seats.push(Seat { source, topics, first, ask: kept_door(kept.clone()) });
+            Some(frame_door(kept))
         }
     };
 
     let mut sinks = setup.sinks;
     let felt = setup.haptic.map(|Felt { seat, world }| {
-        let (tell, news) = flume::bounded(NEWS);
         sinks.push(seat.sink());
-        (haptic::keep(seat, tell), world, news)
+        let crew = crew.clone();
+        let joins: haptic::Joins = Box::new(move |control| crew.tell(haptic::HAPTIC, control));
+        (haptic::keep_and_tell(seat, tell, joins), world)
     });
-    let (keeper, felt_world, news) = match felt {
-        Some((keeper, world, news)) => (Some(keeper), Some(world), Some(news)),
-        None => (None, None, None),
-    };
+    let (keeper, felt_world) = felt.unzip();
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
 
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
+    crew.tell("physics", &physics_ref);
     let body = Physics::new(simulation, setup.world, felt_world);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
@@ -175,7 +231,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let events =
         EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
-    let events = spawn(events);
+    let events = crew.join("event manager", events);
     let below = Below {
         physics: physics_ref.clone(),
         events: events.clone(),
@@ -185,7 +241,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         signs,
         news,
     };
-    let conductor = spawn(Conductor::new(clock, below));
+    let conductor = crew.join("conductor", Conductor::new(clock, below));
 
     let finished = pacer::run(&conductor, setup.tempo, &setup.stop).await;
     // A conductor that is gone took its recording with it; what is on disk stays there.
@@ -211,22 +267,33 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     }
 }
 
-fn spawn<A: Actor<Args = A>>(actor: A) -> ActorRef<A> {
-    A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX))
-}
-
 async fn stop<A: Actor>(actor: ActorRef<A>) {
     // An actor that has stopped already is what is wanted.
     let _ = actor.stop_gracefully().await;
     actor.wait_for_shutdown().await;
 }
 
-fn take_seat<P, A>(mut core: P, actor: impl FnOnce(P) -> A, table: &Snapshot) -> Seat
+fn take_seat<P, A>(mut core: P, spawn: impl FnOnce(P) -> ActorRef<A>, table: &Snapshot) -> Seat
 where
     P: Participant,
-    A: Actor<Args = A> + Message<Mail, Reply = Answer>,
+    A: Message<Mail, Reply = Answer>,
 {
     let (source, topics) = (core.source(), core.topics());
     let first = participant::start(&mut core, table);
-    Seat { source, topics, first, ask: door(spawn(actor(core))) }
+    Seat { source, topics, first, ask: door(spawn(core)) }
+}
+
+/// The same for a computer player, whose actor is replaced when it dies.
+fn keep_player(
+    mut core: Player,
+    crew: &Crew,
+    news: &flume::Sender<Health>,
+    table: &Snapshot,
+) -> Seat {
+    let (source, topics) = (core.source(), core.topics());
+    let first = participant::start(&mut core, table);
+    let (core, crew) = (Shared::new(Saved::new(core)), crew.clone());
+    let spawn = move || crew.join("ai", Ai(core.clone()));
+    let kept = Arc::new(Kept::new("ai", spawn, news.clone()));
+    Seat { source, topics, first, ask: kept_door(kept) }
 }

@@ -22,5 +22,8 @@ mod placing;
 
 mod tip;
 
+mod hand_over;
+pub use hand_over::StylusWord;
+
 mod human;
-pub use human::Human;
+pub use human::{Human, STYLUS};

@@ -22,6 +22,6 @@ pub use draw_list::{BallInstance, DrawList, GhostBall, Line, Radii};
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, ball_look};
 pub use playhead::{Playhead, between};
-pub use scoreboard::Scoreboard;
+pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cue_shape, sphere};
 pub use words::Words;

@@ -2,11 +2,14 @@
 
 use super::HAPTIC;
 use super::seat::{Held, Seat};
+use super::timing::Timing;
+use glam::DVec2;
 use hapticbillard::ball::BallPlace;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::Health;
 use hapticbillard::haptic::{DeviceStatus, SafetyFlags, ServoReport, stiffness_for};
 use hapticbillard::ids::BallId;
+use hapticbillard::input::feel::ELEVATION_MAX_RAD;
 use kameo::prelude::*;
 use std::sync::Arc;
 
@@ -23,13 +26,16 @@ pub struct Haptic {
     held: Held,
     told: SafetyFlags,
     was_running: bool,
+    /// How far the workspace was turned when it was looked at last [rad].
+    turned: DVec2,
 }
 
 impl Haptic {
     /// Takes hold of a servo. None while somebody else does.
     pub fn new(seat: &Arc<Seat>) -> Option<Self> {
         let held = seat.hold()?;
-        Some(Haptic { held, told: SafetyFlags::default(), was_running: true })
+        let turned = seat.signs().turned();
+        Some(Haptic { held, told: SafetyFlags::default(), was_running: true, turned })
     }
 }
 
@@ -76,19 +82,26 @@ impl Haptic {
         }
     }
 
-    /// The workspace follows the cue ball from shot to shot; it keeps its direction.
+    /// The workspace follows the cue ball from shot to shot, and whoever turns it with the mouse;
+    /// otherwise it keeps its direction.
     fn follow(&mut self, report: &ServoReport) {
         let seat = self.held.seat().clone();
-        let Some(told) = seat.mail().last() else { return };
+        let told = seat.mail().last();
+        let turned = seat.signs().turned();
+        let by = turned - std::mem::replace(&mut self.turned, turned);
         let orders = *self.held.orders();
         let (Some(lay), Some(reach)) = (seat.lay(), orders.reach) else { return };
-        let Some(cue_ball) = told.table.ball(BallId::CUE) else { return };
-        if cue_ball.place != BallPlace::OnTable || cue_ball.position == reach.pivot {
+        let cue_ball = told.as_ref().and_then(|told| told.table.ball(BallId::CUE));
+        let pivot = cue_ball
+            .filter(|ball| ball.place == BallPlace::OnTable)
+            .map_or(reach.pivot, |ball| ball.position);
+        if pivot == reach.pivot && by == DVec2::ZERO {
             return;
         }
-        let (azimuth_rad, elevation_rad) = (report.azimuth_rad, report.elevation_rad);
+        let azimuth_rad = report.azimuth_rad + by.x;
+        let elevation_rad = (report.elevation_rad + by.y).clamp(0.0, ELEVATION_MAX_RAD);
         let aim = Aim { azimuth_rad, elevation_rad, ..Aim::default() };
-        let reach = lay.to(reach.serial.wrapping_add(1), cue_ball.position, &aim);
+        let reach = lay.to(reach.serial.wrapping_add(1), pivot, &aim);
         self.held.order(super::Orders { reach: Some(reach), ..orders });
     }
 

@@ -3,6 +3,7 @@
 
 use super::HAPTIC;
 use super::control::{Haptic, Look};
+use super::rights::Refusal;
 use super::seat::Seat;
 use hapticbillard::events::Health;
 use kameo::mailbox;
@@ -29,15 +30,24 @@ pub struct Keeper {
     task: JoinHandle<()>,
 }
 
+/// Who is told of each control that takes its place.
+pub type Joins = Box<dyn Fn(&ActorRef<Haptic>) + Send + Sync>;
+
 /// Keeps a control at this servo, and tells `news` what the player should know.
 pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
+    keep_and_tell(seat, news, Box::new(|_| ()))
+}
+
+/// The same, and `joins` is told of each control.
+pub fn keep_and_tell(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
     for refusal in seat.refusals() {
         log::warn!("{HAPTIC}: {refusal}");
-        tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason: refusal.to_string() });
+        let Refusal { asked, reason, remedy } = refusal.clone();
+        tell(&news, Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });
     }
     let (shown, control) = watch::channel(None);
     let (end, ended) = watch::channel(false);
-    let task = tokio::spawn(run(seat.clone(), news, shown, ended));
+    let task = tokio::spawn(run(seat.clone(), news, joins, shown, ended));
     Keeper { seat, control, end, task }
 }
 
@@ -63,6 +73,7 @@ impl Keeper {
 async fn run(
     seat: Arc<Seat>,
     news: flume::Sender<Health>,
+    joins: Joins,
     shown: watch::Sender<Option<ActorRef<Haptic>>>,
     mut ended: watch::Receiver<bool>,
 ) {
@@ -73,6 +84,7 @@ async fn run(
         if let Some(control) = Haptic::new(&seat) {
             let control = Haptic::spawn_with_mailbox(control, mailbox::bounded(MAILBOX));
             shown.send_replace(Some(control.clone()));
+            joins(&control);
             if was_gone {
                 tell(&news, Health::ActorRestarted { actor: HAPTIC.into() });
             }

@@ -5,11 +5,13 @@
 //! | [`Orders`] in | effects, reach, greatest stiffness | the newest counts |
 //! | [`Balls`] in | balls in play, a heartbeat of the world | the newest counts |
 //! | [`Signs`] in | the heartbeat in pause, the dead man's switch | – |
+//! | [`Signs`] to the control | how far the mouse has turned the workspace | sums count |
 //! | report out | everything about the last tick | the newest counts |
 //! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
 //! | edges out | every press and release, in order | the same; a sample tells what is held |
 
 use super::timing::Timing;
+use glam::DVec2;
 use hapticbillard::ball::Ball;
 use hapticbillard::haptic::{
     BALLS_MAX, Buttons, EffectSet, HapticBall, Reach, ServoReport, StylusSample,
@@ -68,6 +70,8 @@ pub struct Signs {
     heartbeat: AtomicU64,
     held: AtomicBool,
     seen: AtomicU64,
+    /// To the left and upwards since the start [rad], as bits.
+    turned: [AtomicU64; 2],
 }
 
 impl Signs {
@@ -90,6 +94,20 @@ impl Signs {
     /// Whether somebody holds it.
     pub fn is_held(&self) -> bool {
         self.held.load(Ordering::Acquire)
+    }
+
+    /// The workspace is to be turned to the left and raised [rad]. Only one thread says so.
+    pub fn turn(&self, by: DVec2) {
+        for (turned, by) in self.turned.iter().zip([by.x, by.y]) {
+            let sum = f64::from_bits(turned.load(Ordering::Relaxed)) + by;
+            turned.store(sum.to_bits(), Ordering::Relaxed);
+        }
+    }
+
+    /// How far that was since the start [rad].
+    pub fn turned(&self) -> DVec2 {
+        let [left, up] = [0, 1].map(|i| f64::from_bits(self.turned[i].load(Ordering::Relaxed)));
+        DVec2::new(left, up)
     }
 
     /// Physics has taken in the samples up to this one.

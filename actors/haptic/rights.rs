@@ -1,8 +1,8 @@
 //! What the servo's thread asks of the operating system, and what it gets.
 //!
 //! Everything can be refused, and the servo runs on: later, so with less stiffness. A refusal says
-//! what would help. Rights are asked for directly; the service RealtimeKit, which grants them to
-//! desktop users, is not asked.
+//! what would help. The kernel is asked first; where it refuses a priority, the service
+//! RealtimeKit, which grants lower ones to ordinary users.
 
 use hapticbillard::scene::HapticSection;
 use serde::Serialize;
@@ -12,6 +12,9 @@ use std::fmt;
 const PRIORITY: u8 = 80;
 /// How long before a deadline the thread is awake, where a scene does not say [µs].
 const SPIN_US: u32 = 100;
+/// It sleeps for the rest of a period at least: a real-time thread that never pauses is held up by
+/// the kernel, and killed under the limits of RealtimeKit [µs].
+pub const SPIN_MAX_US: u32 = 500;
 
 /// Which processor core to stay on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -62,7 +65,7 @@ impl Asked {
         Asked {
             core: section.core.map_or(usual.core, Core::Number),
             priority: priority.or(usual.priority),
-            spin_us: section.spin_us.unwrap_or(usual.spin_us),
+            spin_us: section.spin_us.unwrap_or(usual.spin_us).min(SPIN_MAX_US),
             ..usual
         }
     }
@@ -76,7 +79,7 @@ pub enum Grant {
     NotAsked,
     /// A vendor's scheduler runs the servo, as it likes.
     Vendors,
-    /// It was given: which core, which priority.
+    /// It was given: which core, which priority and by whom.
     Obtained(String),
     /// It was not.
     Refused(Refusal),
@@ -180,7 +183,7 @@ mod system {
     use std::num::NonZeroU64;
     use thread_priority::unix::{
         RealtimeThreadSchedulePolicy, ThreadSchedulePolicy, set_thread_priority_and_policy,
-        thread_native_id, thread_schedule_policy_param,
+        thread_native_id,
     };
     use thread_priority::{Error, ThreadPriority, ThreadPriorityValue};
 
@@ -221,33 +224,76 @@ mod system {
     }
 
     pub fn prioritise(priority: u8) -> Grant {
+        let kernel = match by_kernel(priority) {
+            Ok(()) => match kept("the kernel") {
+                Ok(granted) => return granted,
+                Err(reason) => reason,
+            },
+            Err(reason) => reason,
+        };
+        let (reason, remedy) = match by_realtime_kit(priority) {
+            Ok(granted) => return granted,
+            Err((reason, remedy)) => (format!("{kernel}; {reason}"), remedy),
+        };
+        // Threads without it are woken up to 50 µs late on purpose; not this one.
+        let _ = set_current_timer_slack(NonZeroU64::new(1));
+        let remedy = format!(
+            "{remedy}add the line `@users - rtprio {priority}` to a file in \
+             /etc/security/limits.d and log in again"
+        );
+        refused(format!("real-time priority {priority}"), reason, remedy)
+    }
+
+    fn by_kernel(priority: u8) -> Result<(), String> {
         let fifo = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
-        let thread = thread_native_id();
-        let asked = format!("real-time priority {priority}");
-        let given = ThreadPriorityValue::try_from(priority)
-            .map_err(|why| why.to_string())
-            .and_then(|value| {
-                let value = ThreadPriority::Crossplatform(value);
-                set_thread_priority_and_policy(thread, value, fifo).map_err(|error| match error {
-                    Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
-                    other => format!("{other:?}"),
-                })
-            });
-        match (given, thread_schedule_policy_param(thread)) {
-            (Ok(()), Ok((policy, now))) if policy == fifo => {
-                Grant::Obtained(format!("SCHED_FIFO {}", now.sched_priority))
-            }
-            (given, _) => {
-                // Threads without it are woken up to 50 µs late on purpose; not this one.
-                let _ = set_current_timer_slack(NonZeroU64::new(1));
-                let reason = given.err().unwrap_or_else(|| "it was not kept".to_string());
-                let remedy = format!(
-                    "add the line `@users - rtprio {priority}` to a file in \
-                     /etc/security/limits.d and log in again"
-                );
-                refused(asked, reason, remedy)
-            }
+        let value = ThreadPriorityValue::try_from(priority).map_err(|why| why.to_string())?;
+        let value = ThreadPriority::Crossplatform(value);
+        set_thread_priority_and_policy(thread_native_id(), value, fifo).map_err(|error| match error
+        {
+            Error::OS(code) => std::io::Error::from_raw_os_error(code).to_string(),
+            other => format!("{other:?}"),
+        })
+    }
+
+    /// What this thread has now, given by `who`.
+    fn kept(who: &str) -> Result<Grant, String> {
+        let (policy, priority) = scheduling()?;
+        let name = match policy & !libc::SCHED_RESET_ON_FORK {
+            libc::SCHED_FIFO => "SCHED_FIFO",
+            libc::SCHED_RR => "SCHED_RR",
+            _ => return Err("it was not kept".to_string()),
+        };
+        Ok(Grant::Obtained(format!("{name} {priority}, by {who}")))
+    }
+
+    /// Policy with its flags, and priority of this thread. The C library knows only what it has
+    /// set itself, so the kernel is asked.
+    #[allow(unsafe_code)]
+    fn scheduling() -> Result<(i32, i32), String> {
+        let mut parameters = libc::sched_param { sched_priority: 0 };
+        // SAFETY: 0 is the calling thread, and the kernel writes one `sched_param`, which lives
+        // until after the call.
+        let (policy, got) =
+            unsafe { (libc::sched_getscheduler(0), libc::sched_getparam(0, &mut parameters)) };
+        match policy {
+            0.. if got == 0 => Ok((policy, parameters.sched_priority)),
+            _ => Err(std::io::Error::last_os_error().to_string()),
         }
+    }
+
+    /// None of it: why, and the beginning of what would help.
+    #[cfg(feature = "rtkit")]
+    fn by_realtime_kit(priority: u8) -> Result<Grant, (String, String)> {
+        let thread = u64::from(rustix::thread::gettid().as_raw_nonzero().get().unsigned_abs());
+        super::super::realtime_kit::ask(thread, priority)
+            .map_err(|why| (why.to_string(), format!("{}, or ", why.remedy())))?;
+        kept("RealtimeKit").map_err(|why| (format!("RealtimeKit: {why}"), String::new()))
+    }
+
+    #[cfg(not(feature = "rtkit"))]
+    fn by_realtime_kit(_: u8) -> Result<Grant, (String, String)> {
+        let why = "this build does not ask RealtimeKit (feature `rtkit`)";
+        Err((why.to_string(), String::new()))
     }
 
     pub fn lock_memory() -> Grant {

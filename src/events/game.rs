@@ -385,6 +385,18 @@ pub enum Health {
         /// Its name.
         actor: String,
     },
+    /// Something that was asked of the operating system or a device was not given; the game does
+    /// without it.
+    Refused {
+        /// Which actor asked.
+        actor: String,
+        /// For what.
+        asked: String,
+        /// Why it was refused.
+        reason: String,
+        /// What would help.
+        remedy: String,
+    },
     /// A queue was full: how many were dropped so far.
     QueueFull {
         /// Its name.

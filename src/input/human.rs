@@ -12,17 +12,24 @@
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
 //! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
 //! somebody else holds `f`, and time runs faster.
+//!
+//! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
 
-use super::camera::{Camera, Viewpoint};
+mod eye;
+
+mod stylus;
+pub use stylus::STYLUS;
+
+use super::camera::Camera;
 use super::feel::{
     AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
     LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT, OFFSET_PER_S, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
 };
+use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
 use super::placing::Placing;
 use super::tip::{Tip, address_path, stroke_path};
-use super::{Button, HumanMode, HumanView, Key, RawInput, sight};
-use crate::ai::withdrawal;
+use super::{Button, Key, RawInput, sight};
 use crate::ball::POOL_RADIUS_M;
 use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{
@@ -53,7 +60,7 @@ enum Stage {
 }
 
 /// The hand of one or two people who share mouse and keyboard.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Human {
     players: Vec<PlayerId>,
     table: Arc<Table>,
@@ -76,6 +83,11 @@ pub struct Human {
     path: Option<CuePath>,
     strength_m_s: f64,
     ghost: Option<(DVec3, DVec2)>,
+
+    /// The stylus beside the mouse.
+    stylus: Option<HandOver>,
+    /// The mouse is what moves the stylus.
+    is_mouse_felt: bool,
 
     held: Held,
     camera: Camera,
@@ -108,6 +120,8 @@ impl Human {
             path: None,
             strength_m_s: 0.0,
             ghost: None,
+            stylus: None,
+            is_mouse_felt: false,
             held: Held::default(),
             camera: Camera::new(),
             is_bird: false,
@@ -134,16 +148,29 @@ impl Human {
     }
 
     /// What the player does in `tick`, given what the devices said since the tick before.
+    pub fn inflow(&mut self, tick: Tick, raw: &[RawInput]) -> Inflow {
+        self.inflow_beside(tick, raw, None)
+    }
+
+    /// The same beside what a stylus says, if it says something.
     ///
     /// While time stands still it is asked on and on for one tick; what it answers then counts
     /// only as far as pause and quit go, so commands wait for the frame after.
-    pub fn inflow(&mut self, tick: Tick, raw: &[RawInput]) -> Inflow {
+    pub fn inflow_beside(
+        &mut self,
+        tick: Tick,
+        raw: &[RawInput],
+        word: Option<&StylusWord>,
+    ) -> Inflow {
         let mut up = 0.0;
         let mut quit = false;
         for input in raw {
             quit |= self.take(*input, &mut up);
         }
         self.hold_keys();
+        if let Some(word) = word {
+            self.follow_stylus(tick, word);
+        }
         self.camera.step();
         if !self.paused {
             self.move_tip(tick, up);
@@ -162,41 +189,6 @@ impl Human {
     fn is_hurried(&self) -> bool {
         let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
         waits && !self.paused && self.held.has(Key::Letter('f'))
-    }
-
-    /// What the picture shows of the player now.
-    pub fn view(&self) -> HumanView {
-        let mut view = HumanView {
-            camera: self.camera.pose(),
-            aim: self.aim,
-            strength_m_s: self.strength_m_s,
-            help: self.help,
-            ..HumanView::default()
-        };
-        match &self.stage {
-            Stage::Waiting | Stage::Struck => {}
-            Stage::Placing(placing) => {
-                view.mode = HumanMode::Placing;
-                view.placing = Some(placing.at);
-                view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
-            }
-            Stage::Aiming => {
-                view.mode = HumanMode::Aiming;
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
-            }
-            Stage::Stroking(tip) => {
-                view.mode = HumanMode::Stroking;
-                view.pulled_back_m = tip.pulled_back_m();
-                view.strength_m_s = tip.speed_m_s().abs();
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
-            }
-        }
-        if self.paused {
-            view.mode = HumanMode::Paused;
-        }
-        view
     }
 
     /// Takes one report; adds to `up` what moves the tip. True if the game shall end.
@@ -238,6 +230,9 @@ impl Human {
             return;
         }
         let fine = self.fine();
+        if self.turn_workspace(-right * AIM_RAD_PER_HEIGHT * fine, 0.0) {
+            return;
+        }
         match &mut self.stage {
             Stage::Waiting | Stage::Struck => {}
             Stage::Placing(placing) => {
@@ -321,7 +316,8 @@ impl Human {
     }
 
     fn raise(&mut self, by_rad: f64) {
-        if self.paused || !matches!(self.stage, Stage::Aiming) {
+        let is_aiming = matches!(self.stage, Stage::Aiming);
+        if self.paused || !is_aiming || self.turn_workspace(0.0, by_rad) {
             return;
         }
         // From what is seen, so that lowering a cue that something holds up acts at once.
@@ -331,7 +327,7 @@ impl Human {
 
     /// Changes how the cue is held, if it is held to aim, and keeps it clear of everything.
     fn change_aim(&mut self, change: impl FnOnce(&mut Aim)) {
-        if !matches!(self.stage, Stage::Aiming) {
+        if !matches!(self.stage, Stage::Aiming) || self.stylus_leads() {
             return;
         }
         let mut aim = self.aim;
@@ -358,13 +354,14 @@ impl Human {
         if self.paused {
             return;
         }
+        let is_free = !self.stylus_leads();
         match &mut self.stage {
             Stage::Placing(placing) if !placing.is_put => {
                 placing.is_put = true;
                 let (position_m, zone) = (placing.at, placing.zone);
                 self.command(Command::PlaceBall { ball: BallId::CUE, position_m, zone });
             }
-            Stage::Aiming => self.stage = Stage::Stroking(Box::new(Tip::new())),
+            Stage::Aiming if is_free => self.stage = Stage::Stroking(Box::new(Tip::new())),
             _ => {}
         }
     }
@@ -386,6 +383,7 @@ impl Human {
             // Shown at once, even if time stands still from here on: no solid cue is left behind.
             self.is_aim_new = true;
         }
+        self.disarm_stylus();
     }
 
     /// Moves the tip by one tick of a stroke.
@@ -417,18 +415,6 @@ impl Human {
         self.aim.tip_of_radius_at_contact(self.tip_radius_m, self.centre, self.radius_m)
     }
 
-    fn follow_with_camera(&mut self) {
-        let behind_cue = Viewpoint::Cue { ball: self.centre, aim: self.aim };
-        let viewpoint = match self.stage {
-            Stage::Placing(_) => Viewpoint::Bird,
-            _ if self.is_bird => Viewpoint::Bird,
-            Stage::Waiting => Viewpoint::Overview,
-            Stage::Aiming | Stage::Stroking(_) => behind_cue,
-            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
-        };
-        self.camera.go_to(viewpoint);
-    }
-
     fn say(&mut self, event: Event) {
         self.pending.push(event.into());
     }
@@ -458,6 +444,11 @@ impl Human {
                         self.address();
                     }
                 }
+            }
+            FactKind::CueBallStruck { .. }
+                if matches!(self.stage, Stage::Aiming) && self.stylus_leads() =>
+            {
+                self.stylus_struck(fact);
             }
             FactKind::CueBallStruck { .. } | FactKind::BallTouched { .. }
                 if matches!(self.stage, Stage::Stroking(_)) =>
@@ -506,6 +497,10 @@ impl Human {
         self.centre = centre;
         self.raised_rad = 0.0;
         self.aim = Aim::along(first);
+        self.address_with_stylus();
+        if self.stylus_leads() {
+            return;
+        }
         self.change_aim(|_| {});
         self.is_aim_new = true;
         self.sight();
@@ -513,12 +508,8 @@ impl Human {
 
     /// A ball was struck: takes the cue back before it can touch it again.
     fn withdraw(&mut self, fact: &Fact, tick: Tick) {
-        let speed = self.path.as_ref().and_then(|path| path.piece_at(fact.time_s));
-        self.strength_m_s = speed.map_or(0.0, |piece| piece.at(fact.time_s).1.length());
-        if let Some(from) = self.seen.cue {
-            let path = withdrawal(&from, tick.end_s());
-            self.command(Command::MoveCue(Arc::new(path)));
-        }
+        self.strength_m_s = self.path_speed(fact);
+        self.withdraw_cue(tick);
         self.path = None;
         self.stage = Stage::Struck;
     }

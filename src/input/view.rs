@@ -35,6 +35,8 @@ pub enum HumanMode {
     Placing,
     /// Turns the cue, sets tip offset and elevation.
     Aiming,
+    /// Has the cue ball before a stylus, which strikes.
+    HoldingStylus,
     /// Holds the cue for a stroke: pulling back and pushing moves the tip.
     Stroking,
     /// Time stands still.

@@ -123,7 +123,7 @@ impl DrawList {
         match view.mode {
             HumanMode::Aiming | HumanMode::Stroking => list.show_aim(world, view, radii),
             HumanMode::Placing => list.show_placing(view, radii),
-            HumanMode::Watching | HumanMode::Paused => {}
+            HumanMode::HoldingStylus | HumanMode::Watching | HumanMode::Paused => {}
         }
         list
     }

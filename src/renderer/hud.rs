@@ -95,7 +95,10 @@ impl Hud {
             }
         } else if let Some(turn) = board.turn.as_ref().filter(|_| !board.is_rolling) {
             let mut told = (**turn).clone();
-            if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
+            if matches!(
+                view.mode,
+                HumanMode::Aiming | HumanMode::HoldingStylus | HumanMode::Stroking
+            ) {
                 // The ball that was in hand lies on the table.
                 told.ball_in_hand = BallInHand::None;
             }
@@ -111,6 +114,15 @@ impl Hud {
         if let Some(reason) = &board.unfelt {
             hud.message.push(words.fill("haptic", "reason", reason));
         }
+        if board.is_without_stylus {
+            hud.message.push(words.get("stylus_gone"));
+        }
+        hud.message.extend(board.refused.iter().map(|refused| {
+            words
+                .fill("refused", "asked", &refused.asked)
+                .replace("{reason}", &refused.reason)
+                .replace("{remedy}", &refused.remedy)
+        }));
         hud.hint = hint(board, view, words);
         if matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking) {
             hud.tip = Some(TipDial {
@@ -121,7 +133,7 @@ impl Hud {
             let degrees = format!("{:.0}", view.aim.elevation_rad.to_degrees());
             hud.elevation = Some(words.fill("elevation", "degrees", &degrees));
         }
-        let strokes = view.mode == HumanMode::Stroking;
+        let strokes = matches!(view.mode, HumanMode::Stroking | HumanMode::HoldingStylus);
         if strokes || (board.is_rolling && view.strength_m_s > 0.0) {
             hud.strength = Some(Gauge {
                 fill: (view.strength_m_s / FULL_SPEED_M_S).clamp(0.0, 1.0),
@@ -169,6 +181,7 @@ fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
         HumanMode::Placing if view.placing_allowed => words.get("in_hand"),
         HumanMode::Placing => words.get("not_there"),
         HumanMode::Aiming => words.get("aim"),
+        HumanMode::HoldingStylus => words.get("stylus"),
         HumanMode::Stroking => words.get("stroke"),
         HumanMode::Paused => String::new(),
         HumanMode::Watching if board.is_rolling => words.get("rolling"),

@@ -4,6 +4,7 @@ use crate::events::{
     Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics, Turn, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
+use crate::input::STYLUS;
 use std::sync::Arc;
 
 /// What is known of the game. Every event leads from one state to the next; nothing else does.
@@ -29,6 +30,21 @@ pub struct Scoreboard {
     pub is_unrecorded: bool,
     /// What is wrong with the haptic device, while something is.
     pub unfelt: Option<String>,
+    /// The haptic device is gone, and the mouse strikes.
+    pub is_without_stylus: bool,
+    /// What operating system and device have refused, until the first stroke.
+    pub refused: Vec<Refused>,
+}
+
+/// Something that was asked of the operating system or a device and not given.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refused {
+    /// What.
+    pub asked: String,
+    /// Why.
+    pub reason: String,
+    /// What would help.
+    pub remedy: String,
 }
 
 impl Scoreboard {
@@ -74,6 +90,7 @@ impl Scoreboard {
                     self.is_rolling = true;
                     // What was said about the shot before is old now.
                     self.verdict = None;
+                    self.refused.clear();
                 }
                 FactKind::BallPocketed { ball, .. } | FactKind::BallOffTable { ball } => {
                     self.on_table.retain(|other| *other != ball);
@@ -81,20 +98,31 @@ impl Scoreboard {
                 FactKind::Settled { .. } => self.is_rolling = false,
                 _ => {}
             },
-            Event::Health(health) => match &**health {
-                Health::ActorFailed { actor, .. } if actor == "recorder" => {
-                    self.is_unrecorded = true;
-                }
-                Health::ActorRestarted { actor } if actor == "recorder" => {
-                    self.is_unrecorded = false;
-                }
-                Health::ActorFailed { actor, reason } if actor == "haptic" => {
-                    self.unfelt = Some(reason.clone());
-                }
-                Health::ActorRestarted { actor } if actor == "haptic" => self.unfelt = None,
+            Event::Health(health) => self.hear_health(health),
+            Event::Command(_) | Event::Menu(_) => {}
+        }
+    }
+
+    fn hear_health(&mut self, health: &Health) {
+        match health {
+            Health::ActorFailed { actor, reason } => match actor.as_str() {
+                "recorder" => self.is_unrecorded = true,
+                "haptic" => self.unfelt = Some(reason.clone()),
+                STYLUS => self.is_without_stylus = true,
                 _ => {}
             },
-            Event::Command(_) | Event::Menu(_) => {}
+            Health::ActorRestarted { actor } => match actor.as_str() {
+                "recorder" => self.is_unrecorded = false,
+                "haptic" => self.unfelt = None,
+                STYLUS => self.is_without_stylus = false,
+                _ => {}
+            },
+            Health::Refused { asked, reason, remedy, .. } => self.refused.push(Refused {
+                asked: asked.clone(),
+                reason: reason.clone(),
+                remedy: remedy.clone(),
+            }),
+            Health::QueueFull { .. } => {}
         }
     }
 

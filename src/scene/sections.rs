@@ -504,7 +504,7 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         device,
         core: number("core", 0..=1023)?,
         priority: number("priority", 1..=99)?,
-        spin_us: number("spin_us", 0..=1000)?,
+        spin_us: number("spin_us", 0..=500)?,
     })
 }
 

@@ -8,3 +8,5 @@ pub mod desk;
 mod play;
 /// Strokes: what the hand does is what the tip does.
 mod stroke;
+/// A stylus beside the mouse: who strikes, and what becomes of a stroke whose device is lost.
+mod stylus;

@@ -3,11 +3,11 @@
 use glam::{DQuat, DVec2, DVec3, Vec3};
 use hapticbillard::ball::{BallPlace, BallState, Motion, POOL_RADIUS_M};
 use hapticbillard::events::{
-    BallInHand, Event, Fact, FactKind, Foul, Group, Groups, PlayerReport, PlayerState, ShotKind,
-    Turn, TurnAfter, Verdict,
+    BallInHand, Event, Fact, FactKind, Foul, Group, Groups, Health, PlayerReport, PlayerState,
+    ShotKind, Turn, TurnAfter, Verdict,
 };
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
-use hapticbillard::input::{HumanMode, HumanView};
+use hapticbillard::input::{HumanMode, HumanView, STYLUS};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
     DrawList, Hud, Playhead, Radii, Remaining, Scoreboard, Shape, Words, ball_look, between,
@@ -232,6 +232,32 @@ fn a_foul_says_why_in_a_sentence_until_the_next_stroke() {
     let shown = hud(&board, &HumanView::default());
     assert!(!shown.is_foul && shown.message.is_empty());
     assert_eq!(shown.hint, "Balls are rolling. Hold f: faster.");
+}
+
+#[test]
+fn what_is_wrong_with_the_haptic_device_is_told_until_it_is_right() {
+    let mut board = Scoreboard::new(vec!["Ada".into()]);
+    let health = |health| Event::Health(Arc::new(health));
+    let lines = |board: &Scoreboard| hud(board, &HumanView::default()).message;
+    board.hear(&health(Health::Refused {
+        actor: "haptic".into(),
+        asked: "locked memory".into(),
+        reason: "no".into(),
+        remedy: "ask nicely".into(),
+    }));
+    let actor = STYLUS.to_string();
+    board.hear(&health(Health::ActorFailed { actor: actor.clone(), reason: "unplugged".into() }));
+    let told = [
+        "The haptic device is gone: the mouse strikes.",
+        "Force feedback: locked memory was refused (no); ask nicely.",
+    ];
+    assert_eq!(lines(&board), told);
+    board.hear(&struck());
+    assert_eq!(lines(&board), told[..1]);
+    board.hear(&health(Health::ActorRestarted { actor }));
+    assert!(lines(&board).is_empty());
+    let holding = HumanView { mode: HumanMode::HoldingStylus, ..HumanView::default() };
+    assert!(hud(&board, &holding).hint.starts_with("Stylus: hold the front button"));
 }
 
 #[test]

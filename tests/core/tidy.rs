@@ -30,7 +30,7 @@ const LAYERS: [&[&str]; 15] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 25] = [
+const ACTORS: [(&str, Option<&str>); 26] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -51,6 +51,7 @@ const ACTORS: [(&str, Option<&str>); 25] = [
     ("event_log", None),
     ("game", None),
     ("files", None),
+    ("kept", None),
     ("lib", None),
     ("main", None),
     ("pacer", None),

@@ -7,6 +7,8 @@
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
+/// Forces that end when something fails while a wall is felt.
+mod contact;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
@@ -15,10 +17,14 @@ mod device_recordings;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
+/// The table of failures, cell by cell.
+mod failures;
 /// Files: sizes, kinds, writing whole.
 mod files;
 /// A Haply device at a service of our own.
 mod haply;
+/// From the stylus to the mouse and back.
+mod hand_over;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.
@@ -34,6 +40,9 @@ mod outside;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;
+/// Real-time rights for ordinary users.
+#[cfg(all(target_os = "linux", feature = "rtkit"))]
+mod realtime_kit;
 /// Recordings of games that were interrupted or killed.
 #[cfg(unix)]
 mod recordings;

@@ -35,7 +35,7 @@ use std::time::{Duration, Instant};
 
 /// What a test knows of a device, and what it makes it do.
 #[derive(Default)]
-struct Wires {
+pub struct Wires {
     /// Size of the last force that was written [N], as bits.
     force: AtomicU64,
     held: AtomicU8,

@@ -80,7 +80,7 @@ pub struct CheckArgs {
     pub priority: Option<u8>,
 
     /// How long before a deadline to stop sleeping [µs].
-    #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=500))]
     pub spin_us: Option<u32>,
 
     /// Prints JSON lines.

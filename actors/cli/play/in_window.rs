@@ -122,7 +122,12 @@ fn shown(
         let input = match hand {
             Some(hand) => {
                 let hand = hand.with_ball_radius(radii.of(BallId::CUE));
-                InputPort::Hand(Box::new(WindowHand::new(hand, raw, view)))
+                let hand = WindowHand::new(hand, raw, view);
+                let hand = match stylus.filter(|_| has_cue) {
+                    Some(ports) => hand.with_stylus(Stylus::new(ports), mouse.map(FeltMouse::new)),
+                    None => hand,
+                };
+                InputPort::Hand(Box::new(hand))
             }
             None => {
                 let recorded = replay.map(RecordedInput);
@@ -197,7 +202,11 @@ impl FrameSource for Spectator {
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
         let mut recorded = recorded.unwrap_or_default();
         if let Some(stylus) = &mut self.stylus {
-            recorded.frame.extend(stylus.frame(tick));
+            if own.paused {
+                stylus.rest();
+            } else {
+                recorded.frame.extend(stylus.frame(tick));
+            }
         }
         // What the spectator's hand would publish is not part of the game.
         Inflow {

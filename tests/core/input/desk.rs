@@ -1,11 +1,12 @@
 //! A desk: a game in lockstep with a script at mouse and keyboard.
 
+use glam::DVec2;
 use hapticbillard::cast::Cast;
 use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Verdict};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
-use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput};
+use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput, StylusWord};
 use hapticbillard::lockstep::{Lockstep, Setup};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::Scene;
@@ -24,6 +25,8 @@ struct Shared {
     human: Human,
     /// Reports for the next tick.
     reports: Vec<RawInput>,
+    /// What a stylus says in the next tick.
+    word: Option<StylusWord>,
     frames: Vec<(Tick, Frame)>,
     asked: u64,
     last: Inflow,
@@ -36,7 +39,8 @@ impl FrameSource for Hand {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         let mut shared = self.0.lock().unwrap();
         let reports = std::mem::take(&mut shared.reports);
-        let inflow = shared.human.inflow(tick, &reports);
+        let word = shared.word.take();
+        let inflow = shared.human.inflow_beside(tick, &reports, word.as_ref());
         if !inflow.frame.is_empty() {
             shared.frames.push((tick, inflow.frame.clone()));
         }
@@ -107,12 +111,23 @@ impl Desk {
         Desk::at(scene, table, Pace::EveryTick)
     }
 
+    /// The same for a person with a stylus.
+    pub fn with_stylus(scene: &Scene) -> Self {
+        let table = Arc::new(scene.build_table(&mut |_| Err(String::new())).unwrap());
+        Desk::of(scene, table, Pace::EveryTick, Human::with_stylus)
+    }
+
     pub fn at(scene: &Scene, table: Arc<Table>, pace: Pace) -> Self {
+        Desk::of(scene, table, pace, |human| human)
+    }
+
+    fn of(scene: &Scene, table: Arc<Table>, pace: Pace, with: impl Fn(Human) -> Human) -> Self {
         let mut cast = Cast::new(scene, table).unwrap();
-        let human = cast.human.take().unwrap();
+        let human = with(cast.human.take().unwrap());
         let shared = Arc::new(Mutex::new(Shared {
             human,
             reports: Vec::new(),
+            word: None,
             frames: Vec::new(),
             asked: 0,
             last: Inflow::default(),
@@ -132,6 +147,17 @@ impl Desk {
         while self.finished.is_none() && self.shared.lock().unwrap().asked == asked {
             self.finished = self.game.step().unwrap();
         }
+    }
+
+    /// One tick in which a stylus says this.
+    pub fn say(&mut self, word: StylusWord) {
+        self.shared.lock().unwrap().word = Some(word);
+        self.tick(&[]);
+    }
+
+    /// How far the workspace of the stylus is to be turned and raised [rad].
+    pub fn take_turn(&self) -> DVec2 {
+        self.shared.lock().unwrap().human.take_turn()
     }
 
     /// Nobody touches anything for so long.
@@ -187,6 +213,11 @@ impl Desk {
     pub fn tips(&self) -> usize {
         let is_tip = |fact: &Fact| matches!(fact.kind, FactKind::CueBallStruck { .. });
         self.facts().iter().filter(|fact| is_tip(fact)).count()
+    }
+
+    /// How many frames were asked for.
+    pub fn frames_asked(&self) -> u64 {
+        self.shared.lock().unwrap().asked
     }
 
     /// All frames that said anything.

@@ -146,7 +146,8 @@ fn a_refused_rate_is_told_and_the_real_one_is_used() {
     let told: Vec<Health> = news.try_iter().collect();
     assert!(
         told.iter().any(|health| matches!(health,
-            Health::ActorFailed { reason, .. } if reason == expected)),
+            Health::Refused { asked, reason, remedy, .. }
+                if format!("{asked} was refused ({reason}); {remedy}") == expected)),
         "{told:?}"
     );
     // Half a second of ticks of 2 ms is not a second of missed ones.

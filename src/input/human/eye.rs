@@ -1,0 +1,60 @@
+//! What the person sees, and from where.
+
+use super::super::camera::Viewpoint;
+use super::super::{HumanMode, HumanView};
+use super::{Human, Stage};
+use glam::DVec2;
+
+impl Human {
+    /// What the picture shows of the player now.
+    pub fn view(&self) -> HumanView {
+        let mut view = HumanView {
+            camera: self.camera.pose(),
+            aim: self.aim,
+            strength_m_s: self.strength_m_s,
+            help: self.help,
+            ..HumanView::default()
+        };
+        match &self.stage {
+            Stage::Waiting | Stage::Struck => {}
+            Stage::Placing(placing) => {
+                view.mode = HumanMode::Placing;
+                view.placing = Some(placing.at);
+                view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
+            }
+            Stage::Aiming if self.stylus_leads() => {
+                view.mode = HumanMode::HoldingStylus;
+                view.strength_m_s = if self.is_stylus_armed() { self.tip_speed_m_s() } else { 0.0 };
+            }
+            Stage::Aiming => {
+                view.mode = HumanMode::Aiming;
+                view.ghost = self.ghost.map(|(place, _)| place);
+                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+            }
+            Stage::Stroking(tip) => {
+                view.mode = HumanMode::Stroking;
+                view.pulled_back_m = tip.pulled_back_m();
+                view.strength_m_s = tip.speed_m_s().abs();
+                view.ghost = self.ghost.map(|(place, _)| place);
+                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+            }
+        }
+        if self.paused {
+            view.mode = HumanMode::Paused;
+        }
+        view
+    }
+
+    /// The camera goes where the stage wants it.
+    pub(super) fn follow_with_camera(&mut self) {
+        let behind_cue = Viewpoint::Cue { ball: self.centre, aim: self.aim };
+        let viewpoint = match self.stage {
+            Stage::Placing(_) => Viewpoint::Bird,
+            _ if self.is_bird => Viewpoint::Bird,
+            Stage::Waiting => Viewpoint::Overview,
+            Stage::Aiming | Stage::Stroking(_) => behind_cue,
+            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
+        };
+        self.camera.go_to(viewpoint);
+    }
+}

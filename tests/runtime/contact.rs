@@ -1,0 +1,305 @@
+//! What the hand feels when something fails while it leans on a ball of a running game.
+
+use super::hearing::Hears;
+use glam::DVec3;
+use hapticbillard::events::{Event, Health, Topic};
+use hapticbillard::haptic::{Device, DeviceSpec, DeviceState, DeviceStatus, Force};
+use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
+use hapticbillard::units::Tick;
+use hapticbillard_actors::conductor::RunError;
+use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::Stage;
+use hapticbillard_actors::haptic::{Asked, Core, Opened, Plan, Seat, Signs, Started};
+use hapticbillard_actors::pacer::{StopFlag, Tempo};
+use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// The device goes down until it is pushed back with this [N], and rests there: less than what
+/// the ramp after an interruption waits for.
+const LEAN_N: f64 = 0.15;
+/// How fast it goes down [m/s].
+const DOWN_M_S: f64 = 0.02;
+/// It waits until the start ramp is over [s].
+const START_S: f64 = 3.0;
+/// The ramp after an interruption takes half a second; most of that passes [s].
+const RAMP_S: f64 = 0.4;
+
+/// What test and device know of each other.
+#[derive(Default)]
+struct Wires {
+    signs: OnceLock<Arc<Signs>>,
+    says_nan: AtomicBool,
+    is_lost: AtomicBool,
+    panics: AtomicBool,
+    is_gone: AtomicBool,
+    /// It leans on something.
+    leans: AtomicBool,
+    /// Force of the last tick [N], as bits.
+    force: AtomicU64,
+    /// What it is pushed with while nothing fails [N], as bits.
+    full: AtomicU64,
+    /// Ticks in which it was pushed although it had said that it is lost, or no numbers.
+    pushed_broken: AtomicU64,
+    /// The most ticks in a row in which it was pushed although nobody held the dead man's switch.
+    pushed_alone: AtomicU64,
+    /// Time from the last tick without force to the first with most of it [s], as bits.
+    rise: AtomicU64,
+}
+
+impl Wires {
+    fn force_n(&self) -> f64 {
+        f64::from_bits(self.force.load(Ordering::SeqCst))
+    }
+
+    fn full_n(&self) -> f64 {
+        f64::from_bits(self.full.load(Ordering::SeqCst))
+    }
+
+    fn rise_s(&self) -> f64 {
+        f64::from_bits(self.rise.load(Ordering::SeqCst))
+    }
+}
+
+/// A device that leans on what is below it.
+struct Leaning {
+    wires: Arc<Wires>,
+    position: DVec3,
+    is_broken: bool,
+    alone: u64,
+    /// Time since the start [s].
+    time_s: f64,
+    /// Time since there was no force [s].
+    since_s: f64,
+    has_risen: bool,
+}
+
+impl Device for Leaning {
+    fn spec(&self) -> DeviceSpec {
+        DeviceSpec::OMNI
+    }
+
+    fn read(&mut self, dt: f64) -> DeviceState {
+        let wires = &self.wires;
+        assert!(!wires.panics.load(Ordering::SeqCst), "the device is made to panic here");
+        let (is_nan, is_lost) =
+            (wires.says_nan.load(Ordering::SeqCst), wires.is_lost.load(Ordering::SeqCst));
+        self.is_broken = is_nan || is_lost;
+        self.since_s += dt;
+        self.time_s += dt;
+        let leans = wires.leans.load(Ordering::SeqCst);
+        if !leans && self.time_s > START_S {
+            self.position.y -= DOWN_M_S * dt.min(0.002);
+        }
+        DeviceState {
+            position: if is_nan { DVec3::NAN } else { self.position },
+            velocity: if leans { DVec3::ZERO } else { DVec3::NEG_Y * DOWN_M_S },
+            status: if is_lost { DeviceStatus::Lost } else { DeviceStatus::Ready },
+            ..DeviceState::default()
+        }
+    }
+
+    fn write(&mut self, force: Force) {
+        let (wires, force_n) = (&self.wires, force.0.length());
+        wires.force.store(force_n.to_bits(), Ordering::SeqCst);
+        if force_n > LEAN_N {
+            wires.leans.store(true, Ordering::SeqCst);
+        }
+        if force_n > 0.0 && self.is_broken {
+            wires.pushed_broken.fetch_add(1, Ordering::SeqCst);
+        }
+        let is_held = wires.signs.get().is_none_or(|signs| signs.is_held());
+        self.alone = if force_n > 0.0 && !is_held { self.alone + 1 } else { 0 };
+        wires.pushed_alone.fetch_max(self.alone, Ordering::SeqCst);
+        if force_n == 0.0 {
+            (self.since_s, self.has_risen) = (0.0, false);
+            wires.rise.store(0.0_f64.to_bits(), Ordering::SeqCst);
+        } else if force_n > 0.9 * wires.full_n() && !self.has_risen {
+            self.has_risen = true;
+            wires.rise.store(self.since_s.to_bits(), Ordering::SeqCst);
+        }
+    }
+}
+
+impl Drop for Leaning {
+    fn drop(&mut self) {
+        self.wires.is_gone.store(true, Ordering::SeqCst);
+    }
+}
+
+/// Holds the game up while somebody wants it.
+struct Stalling(Arc<AtomicBool>);
+
+impl FrameSource for Stalling {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        while self.0.load(Ordering::SeqCst) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Inflow { next: Some(tick.after(1)), ..Inflow::default() }
+    }
+}
+
+/// A game of `haptic_touch` in real time, in which the device leans on a ball.
+struct Game {
+    wires: Arc<Wires>,
+    stall: Arc<AtomicBool>,
+    joined: flume::Receiver<Member>,
+    listener: Hears,
+    stop: StopFlag,
+    thread: Option<JoinHandle<Result<Finished, RunError>>>,
+}
+
+impl Game {
+    fn start() -> Self {
+        let stage = Stage::new(&load_scene("haptic_touch").unwrap(), "haptic_touch").unwrap();
+        let wires = Arc::new(Wires::default());
+        let device = Leaning {
+            wires: wires.clone(),
+            position: DVec3::new(0.0, 0.055, 0.0),
+            is_broken: false,
+            alone: 0,
+            time_s: 0.0,
+            since_s: 0.0,
+            has_risen: false,
+        };
+        let plan = Plan {
+            opened: Opened::new(device),
+            asked: Asked { core: Core::Any, lock_memory: false, ..Asked::default() },
+            ..stage.haptic().unwrap().unwrap()
+        };
+        let Started { seat, world, .. } = Seat::start(plan).unwrap();
+        assert!(wires.signs.set(seat.signs().clone()).is_ok());
+        let (tells, joined) = flume::unbounded();
+        let (stop, stall) = (StopFlag::default(), Arc::new(AtomicBool::new(false)));
+        let listener = Hears::of(Topic::Health);
+        let setup = Setup {
+            pace: Pace::EveryTick,
+            tempo: Tempo::RealTime(1.0),
+            input: InputPort::StandIn(Box::new(Stalling(stall.clone()))),
+            observers: vec![Box::new(listener.clone())],
+            haptic: Some(Felt { seat, world }),
+            stop: stop.clone(),
+            crew: Crew(Some(tells)),
+            workers: 2,
+            ..Setup::headless(Tick(600_000))
+        };
+        let cast = stage.cast().unwrap();
+        let thread = std::thread::spawn(move || runtime::run(cast, setup));
+        let game = Game { wires, stall, joined, listener, stop, thread: Some(thread) };
+        game.wait_for_lean();
+        game
+    }
+
+    #[track_caller]
+    fn wait_for(&self, what: &str, is_so: impl Fn(&Wires) -> bool) {
+        let start = Instant::now();
+        while !is_so(&self.wires) {
+            let (force, full) = (self.wires.force_n(), self.wires.full_n());
+            let is_late = start.elapsed() > Duration::from_secs(60);
+            assert!(!is_late, "in vain: {what}; {force} N of {full} N");
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// Waits until the ball pushes as it will.
+    #[track_caller]
+    fn wait_for_lean(&self) {
+        self.wait_for("a ball", |wires| wires.leans.load(Ordering::SeqCst));
+        self.wait_for("a steady force", |wires| {
+            let before = wires.force_n();
+            std::thread::sleep(Duration::from_millis(300));
+            let now = wires.force_n();
+            wires.full.store(now.to_bits(), Ordering::SeqCst);
+            before > 0.9 * LEAN_N && (now - before).abs() < 1e-3 * now
+        });
+    }
+
+    #[track_caller]
+    fn wait_for_nothing(&self) {
+        self.wait_for("no force", |wires| wires.force_n() == 0.0);
+    }
+
+    /// Waits until the player was told of a failure for this reason.
+    #[track_caller]
+    fn wait_for_word(&self, of: &str) {
+        let heard = || {
+            self.listener.heard(|event| match event {
+                Event::Health(health) => match &**health {
+                    Health::ActorFailed { reason, .. } => Some(reason.clone()),
+                    _ => None,
+                },
+                _ => None,
+            })
+        };
+        self.wait_for(of, |_| heard().iter().any(|reason| reason.contains(of)));
+    }
+
+    /// The force came back slowly.
+    #[track_caller]
+    fn comes_back_softly(&self) {
+        self.wait_for("the rise", |wires| wires.rise_s() > 0.0);
+        self.wait_for_lean();
+        assert!(self.wires.rise_s() > RAMP_S, "{} s", self.wires.rise_s());
+    }
+
+    fn end(mut self) {
+        self.stop.set();
+        let finished = self.thread.take().unwrap().join().unwrap();
+        assert!(finished.is_ok(), "{finished:?}");
+        assert!(self.wires.is_gone.load(Ordering::SeqCst) && self.wires.force_n() == 0.0);
+    }
+}
+
+#[test]
+fn a_killed_control_takes_the_force_away_and_the_next_one_brings_it_back_softly() {
+    let game = Game::start();
+    let control = game.joined.iter().find(|member| member.name == "haptic").unwrap();
+    control.kill();
+    game.wait_for_nothing();
+    game.wait_for_word("its control stopped");
+    game.comes_back_softly();
+    // A tick that had begun when the switch was let go may end with its force, and no other.
+    assert!(game.wires.pushed_alone.load(Ordering::SeqCst) <= 1);
+    game.end();
+}
+
+#[test]
+fn a_device_that_is_lost_or_says_nan_has_no_force_at_the_same_tick_and_gets_it_back_softly() {
+    let game = Game::start();
+    for (switch, told) in
+        [(&game.wires.is_lost, "is not ready"), (&game.wires.says_nan, "no numbers")]
+    {
+        switch.store(true, Ordering::SeqCst);
+        game.wait_for_nothing();
+        game.wait_for_word(told);
+        switch.store(false, Ordering::SeqCst);
+        game.comes_back_softly();
+    }
+    assert_eq!(game.wires.pushed_broken.load(Ordering::SeqCst), 0);
+    game.end();
+}
+
+#[test]
+fn a_world_that_stalls_fades_out_of_the_hand_and_comes_back_softly() {
+    let game = Game::start();
+    game.stall.store(true, Ordering::SeqCst);
+    // 20 ms of patience and 50 ms of fading; a busy machine takes its time to look.
+    let start = Instant::now();
+    game.wait_for_nothing();
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    game.stall.store(false, Ordering::SeqCst);
+    game.wait_for_word("the world stands still");
+    game.wait_for_lean();
+    game.end();
+}
+
+#[test]
+fn a_servo_that_panics_leaves_no_force_and_the_game_goes_on_and_says_so() {
+    let game = Game::start();
+    game.wires.panics.store(true, Ordering::SeqCst);
+    game.wait_for_nothing();
+    game.wait_for_word("the servo ended");
+    game.end();
+}

@@ -1,0 +1,231 @@
+//! Who fails and what then: the design's table, cell by cell, on the real actors of real games.
+//!
+//! | fails | then | test |
+//! |---|---|---|
+//! | Ai | replaced, and nothing is lost | `computer_players_and_inputs_that_are_killed_are_replaced…` |
+//! | Input | replaced, and nothing is lost | the same; `a_hand_that_panics_once_is_replaced…` |
+//! | Input, again and again | the game stops in order | `supervision::when_the_input_dies_for_good…` |
+//! | Recorder | another one goes on in its file | `supervision::a_recorder_that_dies_again_and_again…` |
+//! | Renderer, event log | the game goes on without | `whoever_only_listens_can_go…` |
+//! | Haptic control | no force, another one, a soft start | `contact::a_killed_control…` |
+//! | Haptic thread | no force, the player is told | `contact::a_servo_that_panics…` |
+//! | Physics, Rules, EventManager, Conductor | the game stops in order | `whoever_must_not_lose_anything…` |
+//! | device lost while a stroke is armed | pause, then the mouse | `hand_over::…`, `core::input::stylus` |
+//! | device lost otherwise | the mouse at once | `core::input::stylus` |
+//! | device lost, or says NaN | no force at the next tick | `contact::a_device_that_is_lost_or_says_nan…` |
+//! | rights, of any kind | the player is told with what would help | `what_is_refused_stands_in…` |
+//! | the world stalls | the force fades to none | `contact::a_world_that_stalls…` |
+//!
+//! There is no sound yet that could fail.
+
+use super::cli::folder;
+use super::hearing::Hears;
+use super::supervision::{draft, recorded, run, undisturbed, verify};
+use hapticbillard::events::{Event, Health, Source, Topic, Topics};
+use hapticbillard::hash::StateHash;
+use hapticbillard::input::HumanView;
+use hapticbillard::physics::Snapshot;
+use hapticbillard::renderer::{Hud, Scoreboard, Words};
+use hapticbillard::rules::{Language, Texts};
+use hapticbillard::tick::{Delivered, Frame, FrameSource, Inflow, Outcome, Pace, Participant};
+use hapticbillard::units::Tick;
+use hapticbillard_actors::event_manager::Sink;
+use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::game::Stage;
+use hapticbillard_actors::haptic::{Asked, Core, Plan, Seat, Started};
+use hapticbillard_actors::pacer::Tempo;
+use hapticbillard_actors::recorder::Recorder;
+use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// Hears every event of a topic, and with every n-th kills whoever bears a name.
+struct Killer {
+    topic: Topic,
+    every: u32,
+    heard: u32,
+    victim: &'static str,
+    joined: flume::Receiver<Member>,
+    known: Vec<Member>,
+    killed: Arc<AtomicU32>,
+}
+
+impl Participant for Killer {
+    fn source(&self) -> Source {
+        Source::Runtime
+    }
+
+    fn topics(&self) -> Topics {
+        Topics::of(&[self.topic])
+    }
+
+    fn start(&mut self, _: &Snapshot) -> Outcome {
+        Outcome::default()
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        for _ in delivered.events.iter() {
+            self.heard += 1;
+            if self.heard % self.every == 0 {
+                self.known.extend(self.joined.try_iter());
+                let victims = self.known.drain(..).filter(|member| member.name == self.victim);
+                for victim in victims {
+                    victim.kill();
+                    self.killed.fetch_add(1, Ordering::SeqCst);
+                }
+            }
+        }
+        Outcome::default()
+    }
+
+    fn hash(&self, _: &mut StateHash) {}
+}
+
+/// A killer among those who watch a game, and how many it has killed.
+fn with_killer(
+    victim: &'static str,
+    topic: Topic,
+    every: u32,
+    setup: Setup,
+) -> (Setup, Arc<AtomicU32>) {
+    let (tells, joined) = flume::unbounded();
+    let killed = Arc::new(AtomicU32::new(0));
+    let (known, heard) = (Vec::new(), 0);
+    let killer = Killer { topic, every, heard, victim, joined, known, killed: killed.clone() };
+    let Setup { mut observers, .. } = setup;
+    observers.push(Box::new(killer));
+    (Setup { observers, crew: Crew(Some(tells)), ..setup }, killed)
+}
+
+/// What the player was told of an actor: whether it is there.
+fn told(listener: &Hears, name: &str) -> Vec<bool> {
+    listener.heard(|event| match event {
+        Event::Health(health) => match &**health {
+            Health::ActorFailed { actor, .. } if actor == name => Some(false),
+            Health::ActorRestarted { actor } if actor == name => Some(true),
+            _ => None,
+        },
+        _ => None,
+    })
+}
+
+/// A script without words, which is asked now and then.
+struct Silent;
+
+impl FrameSource for Silent {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        Inflow { next: Some(tick.after(400)), ..Inflow::default() }
+    }
+}
+
+#[test]
+fn computer_players_and_inputs_that_are_killed_are_replaced_and_the_game_is_the_same() {
+    let (reference, whole) = undisturbed("replaced");
+    for (victim, topic, every) in
+        [("ai", Topic::Player, 23), ("ai", Topic::Command, 40), ("input", Topic::Verdict, 5)]
+    {
+        let file = folder("replaced").join(format!("{victim}{every}.jsonl"));
+        let listener = Hears::of(Topic::Health);
+        let input = InputPort::StandIn(Box::new(Silent));
+        let base = recorded(&file, Box::new(Recorder::start));
+        let observers: Vec<Box<dyn Participant>> = vec![Box::new(listener.clone())];
+        let base = Setup { input, observers, ..base };
+        let (setup, killed) = with_killer(victim, topic, every, base);
+        let finished = run(setup).unwrap();
+        assert_eq!((finished.end, finished.hash), (reference.end, reference.hash.clone()));
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), whole, "{victim}");
+        // Each is killed at least once, and whoever plays is told of each.
+        let killed = killed.load(Ordering::SeqCst);
+        let told = told(&listener, victim);
+        assert!(killed > 1 && told.len() > 1, "{victim}: {killed}, {told:?}");
+        assert!(told.chunks(2).all(|pair| pair == [false, true]), "{told:?}");
+    }
+}
+
+/// Dies over one frame and goes on with the next.
+struct Faint(u32);
+
+impl FrameSource for Faint {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        self.0 += 1;
+        assert_ne!(self.0, 30, "the input is made to die here");
+        Inflow { frame: Frame::new(), next: Some(tick.after(500)), ..Inflow::default() }
+    }
+}
+
+#[test]
+fn a_hand_that_panics_once_is_replaced_and_the_game_is_the_same() {
+    let (reference, whole) = undisturbed("faints");
+    let file = folder("faints").join("game.jsonl");
+    let listener = Hears::of(Topic::Health);
+    let setup = Setup {
+        input: InputPort::StandIn(Box::new(Faint(0))),
+        observers: vec![Box::new(listener.clone())],
+        ..recorded(&file, Box::new(Recorder::start))
+    };
+    let finished = run(setup).unwrap();
+    assert_eq!((finished.end, finished.hash), (reference.end, reference.hash));
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), whole);
+    assert_eq!(told(&listener, "input"), [false, true]);
+}
+
+#[test]
+fn whoever_must_not_lose_anything_stops_the_game_in_order_and_it_is_recorded_up_to_there() {
+    for victim in ["physics", "rules", "event manager", "conductor"] {
+        let file = folder("stops").join(format!("{victim}.jsonl"));
+        let base = recorded(&file, Box::new(Recorder::start));
+        let (setup, killed) = with_killer(victim, Topic::Verdict, 7, base);
+        let line = run(setup).unwrap_err().to_string();
+        assert_eq!(killed.load(Ordering::SeqCst), 1, "{victim}");
+        assert!(
+            line.to_lowercase().contains(victim) && line.contains(" stopped at tick "),
+            "{line}"
+        );
+        assert_eq!(line.lines().count(), 1);
+        verify(&draft(&file));
+    }
+}
+
+#[test]
+fn whoever_only_listens_can_go_and_the_game_is_the_same() {
+    let (reference, _) = undisturbed("listeners");
+    let file = folder("listeners").join("game.jsonl");
+    // A window that is gone, and one that takes nothing.
+    let (mail, gone) = flume::bounded(4);
+    let (lagging, _kept) = flume::bounded(4);
+    let sinks =
+        [mail, lagging].map(|mail| Sink { topics: Topics::ALL, mail, dropped: Arc::default() });
+    let dropped = sinks[1].dropped.clone();
+    drop(gone);
+    let sinks = Vec::from(sinks);
+    let finished = run(Setup { sinks, ..recorded(&file, Box::new(Recorder::start)) }).unwrap();
+    assert_eq!((finished.end, finished.hash), (reference.end, reference.hash));
+    assert!(dropped.load(Ordering::SeqCst) > 10);
+}
+
+#[test]
+fn what_is_refused_stands_in_the_players_window_with_what_would_help() {
+    let stage = Stage::new(&load_scene("haptic_touch").unwrap(), "haptic_touch").unwrap();
+    let asked = Asked { core: Core::Number(1023), priority: None, ..Asked::default() };
+    let plan = Plan { asked, ..stage.haptic().unwrap().unwrap() };
+    let Started { seat, world, .. } = Seat::start(plan).unwrap();
+    let (mail, heard) = flume::unbounded::<Delivered>();
+    let setup = Setup {
+        pace: Pace::EveryTick,
+        tempo: Tempo::RealTime(1.0),
+        sinks: vec![Sink { topics: Scoreboard::topics(), mail, dropped: Arc::default() }],
+        haptic: Some(Felt { seat, world }),
+        ..Setup::headless(Tick(300))
+    };
+    runtime::run(stage.cast().unwrap(), setup).unwrap();
+    let mut board = Scoreboard::default();
+    for delivered in heard.iter() {
+        delivered.events.iter().for_each(|stamped| board.hear(&stamped.event));
+    }
+    for language in [Language::English, Language::German] {
+        let (texts, words) = (Texts::new(language), Words::new(language));
+        let hud = Hud::new(&board, &HumanView::default(), &texts, &words);
+        let line = hud.message.iter().find(|line| line.contains("core 1023")).unwrap();
+        assert!(line.contains("name one in [haptic]"), "{line}");
+    }
+}
