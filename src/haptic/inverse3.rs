@@ -19,12 +19,13 @@
 //! Source: Haply Inverse SDK documentation, service 3.1.1 and 3.5 (WebSocket protocol, basis
 //! permutation, mount and workspace, control commands, tutorials 01 and 06).
 
-use super::device::{Buttons, DeviceSpec, DeviceState, DeviceStatus, Force};
+mod message;
+
+use super::device::{DeviceSpec, DeviceState, DeviceStatus, Force};
 use crate::one_line::one_line;
 use crate::units::Seconds;
-use glam::{DQuat, DVec3};
-use serde::Deserialize;
-use serde::de::IgnoredAny;
+use glam::DVec3;
+use message::{ArmStatus, Grip, Message, Turn};
 use std::fmt::Write;
 
 /// The middle of the workspace seen from the device's base, in Haply's frame [m]: where the
@@ -270,142 +271,6 @@ fn read(text: &str) -> Result<Message, Inverse3Trouble> {
         Inverse3Trouble::NotUnderstood(one_line(&error.to_string(), 200))
     };
     serde_json::from_str(text).map_err(not_understood)
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Message {
-    inverse3: Option<Vec<Arm>>,
-    wireless_verse_grip: Option<Vec<Grip>>,
-    custom_verse_grip: Option<Vec<Grip>>,
-    verse_grip: Option<Vec<Grip>>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Arm {
-    device_id: String,
-    config: Option<Config>,
-    state: Option<ArmState>,
-    status: Option<ArmStatus>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Config {
-    #[serde(rename = "type")]
-    kind: Option<String>,
-    basis: Option<Basis>,
-    coordinate_origin: Option<String>,
-    preset: Option<IgnoredAny>,
-    mount: Option<IgnoredAny>,
-    filters: Option<IgnoredAny>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Basis {
-    permutation: Option<String>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct ArmState {
-    cursor_position: Option<Place>,
-    cursor_velocity: Option<Place>,
-    body_orientation: Option<Turn>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct ArmStatus {
-    calibrated: Option<bool>,
-    power_supply: Option<bool>,
-    ready: Option<bool>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Place {
-    x: Option<f64>,
-    y: Option<f64>,
-    z: Option<f64>,
-}
-
-impl Place {
-    fn numbers(&self) -> DVec3 {
-        let [x, y, z] = [self.x, self.y, self.z].map(|number| number.unwrap_or(f64::NAN));
-        DVec3::new(x, y, z)
-    }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Turn {
-    x: Option<f64>,
-    y: Option<f64>,
-    z: Option<f64>,
-    w: Option<f64>,
-}
-
-/// How far from length 1 a quaternion may be.
-const UNIT: f64 = 0.1;
-
-impl Turn {
-    /// None if it is no rotation.
-    fn turned(&self) -> Option<DQuat> {
-        let axis = to_device(DVec3::new(self.x?, self.y?, self.z?));
-        let turned = DQuat::from_xyzw(axis.x, axis.y, axis.z, self.w?);
-        ((turned.length() - 1.0).abs() < UNIT).then(|| turned.normalize())
-    }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct Grip {
-    state: Option<GripState>,
-    status: Option<GripStatus>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct GripStatus {
-    connected: Option<bool>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct GripState {
-    orientation: Option<Turn>,
-    buttons: Option<GripButtons>,
-    /// A grip with a cable has but one.
-    button: Option<bool>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct GripButtons {
-    a: Option<bool>,
-    b: Option<bool>,
-}
-
-impl Grip {
-    fn is_there(&self) -> bool {
-        self.status.as_ref().and_then(|status| status.connected) != Some(false)
-    }
-}
-
-impl GripState {
-    /// Button a strikes, b opens the menu.
-    fn held(&self) -> Buttons {
-        let buttons = self.buttons.as_ref();
-        let front = self.button.or(buttons.and_then(|buttons| buttons.a));
-        let rear = buttons.and_then(|buttons| buttons.b);
-        [(front, Buttons::FRONT), (rear, Buttons::REAR)].into_iter().fold(
-            Buttons::default(),
-            |held, (down, button)| if down == Some(true) { held.with(button) } else { held },
-        )
-    }
 }
 
 /// What was said last about an arm; what was never said is taken to be fine.
