@@ -1,20 +1,20 @@
 //! Who fails and what then: the design's table, cell by cell, on the real actors of real games.
 //!
-//! | fails | then | test |
+//! | fails | then | tests |
 //! |---|---|---|
-//! | Ai | replaced, and nothing is lost | `computer_players_and_inputs_that_are_killed_are_replaced…` |
-//! | Input | replaced, and nothing is lost | the same; `a_hand_that_panics_once_is_replaced…` |
-//! | Input, again and again | the game stops in order | `supervision::when_the_input_dies_for_good…` |
-//! | Recorder | another one goes on in its file | `supervision::a_recorder_that_dies_again_and_again…` |
-//! | Renderer, event log | the game goes on without | `whoever_only_listens_can_go…` |
-//! | Haptic control | no force, another one, a soft start | `contact::a_killed_control…` |
-//! | Haptic thread | no force, the player is told | `contact::a_servo_that_panics…` |
-//! | Physics, Rules, EventManager, Conductor | the game stops in order | `whoever_must_not_lose_anything…` |
-//! | device lost while a stroke is armed | pause, then the mouse | `hand_over::…`, `core::input::stylus` |
-//! | device lost otherwise | the mouse at once | `core::input::stylus` |
-//! | device lost, or says NaN | no force at the next tick | `contact::a_device_that_is_lost_or_says_nan…` |
-//! | rights, of any kind | the player is told with what would help | `what_is_refused_stands_in…` |
-//! | the world stalls | the force fades to none | `contact::a_world_that_stalls…` |
+//! | Ai | replaced, nothing is lost | `computer_players_and_inputs_…` |
+//! | Input | replaced, nothing is lost | the same, `a_hand_that_panics_…` |
+//! | Input for good | the game stops in order | `supervision::when_the_input_dies_…` |
+//! | Recorder | another one goes on | `supervision::a_recorder_that_dies_…` |
+//! | Renderer | the game goes on | `whoever_only_listens_…` |
+//! | Physics, Rules, EventManager, Conductor | the game stops in order | `whoever_must_not_…` |
+//! | Haptic control | no force, another one, a soft start | `contact::a_killed_control_…` |
+//! | Haptic servo | no force, the player is told | `contact::a_servo_that_panics_…` |
+//! | device lost in an armed stroke | pause, then the mouse | `hand_over` |
+//! | device lost otherwise | the mouse at once | `input::stylus` of the core tests |
+//! | device lost, or says NaN | no force at that tick | `contact::a_device_that_is_lost_…` |
+//! | the world stalls | the force fades | `contact::a_world_that_stalls_…` |
+//! | rights | the player is told, with the remedy | `what_is_refused_…`, `realtime_kit` |
 //!
 //! There is no sound yet that could fail.
 
@@ -66,7 +66,7 @@ impl Participant for Killer {
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
         for _ in delivered.events.iter() {
             self.heard += 1;
-            if self.heard % self.every == 0 {
+            if self.heard.is_multiple_of(self.every) {
                 self.known.extend(self.joined.try_iter());
                 let victims = self.known.drain(..).filter(|member| member.name == self.victim);
                 for victim in victims {
