@@ -14,6 +14,7 @@ mod ports;
 mod rights;
 mod seat;
 mod stylus;
+mod telemetry;
 mod thread;
 mod timing;
 
@@ -22,11 +23,13 @@ pub use control::{Haptic, Look, Looked};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
 pub use keeper::{Keeper, keep};
 pub use ports::{
-    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
+    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
+    Watch, WorldPort,
 };
 pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
+pub use telemetry::{Telemetry, Written};
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
 

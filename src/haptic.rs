@@ -46,7 +46,9 @@ pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
 pub use mesh::HapticMesh;
 pub use rehearsal::Rehearsal;
-pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
+pub use report::{
+    ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
+};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;
 pub use settings::{

@@ -8,7 +8,7 @@ mod raw;
 pub use raw::{Button, Key, RawInput};
 
 mod view;
-pub use view::{CameraPose, HumanMode, HumanView};
+pub use view::{CameraPose, HumanMode, HumanView, Look};
 
 pub mod feel;
 
@@ -17,6 +17,7 @@ mod held;
 mod camera;
 
 mod sight;
+pub(crate) use sight::ghost as first_met;
 
 mod placing;
 
@@ -24,3 +25,6 @@ mod tip;
 
 mod human;
 pub use human::Human;
+
+mod mouse_split;
+pub use mouse_split::{MouseSplit, Reader};

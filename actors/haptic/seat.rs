@@ -3,7 +3,7 @@
 //! control that is gone, for whatever reason, has let go of it.
 
 use super::body::Body;
-use super::ports::{ControlPorts, Signs, StylusPorts, WorldPort};
+use super::ports::{ControlPorts, Signs, StylusPorts, Watch, WorldPort};
 use super::rights::{Asked, Obtained};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
@@ -83,6 +83,14 @@ impl Seat {
     /// # Errors
     /// [`NoServo`] if there is no thread.
     pub fn start(plan: Plan) -> Result<Started, NoServo> {
+        Seat::start_watched(plan, Watch::default())
+    }
+
+    /// The same while somebody looks on.
+    ///
+    /// # Errors
+    /// [`NoServo`] if there is no thread.
+    pub fn start_watched(plan: Plan, watch: Watch) -> Result<Started, NoServo> {
         let Plan { opened, asked, mesh, effects, reach, lay, bodies } = plan;
         let spec = opened.device.spec();
         let servo = Servo::new(ServoSettings::of(&spec));
@@ -91,7 +99,8 @@ impl Seat {
             None => servo,
         };
         let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
-        let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
+        let AllPorts { servo: ports, control, stylus, world, .. } =
+            AllPorts::watched(orders, bodies, watch);
         let thread = ServoThread::start(Body::new(opened.device, servo, ports), asked)?;
         let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some((control, orders))));
         let seat = Seat { thread, spec, lay, mail, control };

@@ -10,7 +10,7 @@
 //! | Shift held | a tenth of everything | a tenth | |
 //!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
+//! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
 //! somebody else holds `f`, and time runs faster.
 
 use super::camera::{Camera, Viewpoint};
@@ -81,6 +81,7 @@ pub struct Human {
     camera: Camera,
     is_bird: bool,
     help: bool,
+    overlay: bool,
     paused: bool,
     /// The last answer said that time stands still: the frame of the next one is not used.
     was_paused: bool,
@@ -112,6 +113,7 @@ impl Human {
             camera: Camera::new(),
             is_bird: false,
             help: false,
+            overlay: false,
             paused: false,
             was_paused: false,
             pending: Frame::new(),
@@ -171,6 +173,8 @@ impl Human {
             aim: self.aim,
             strength_m_s: self.strength_m_s,
             help: self.help,
+            look: self.camera.looking(self.is_bird),
+            overlay: self.overlay,
             ..HumanView::default()
         };
         match &self.stage {
@@ -280,6 +284,7 @@ impl Human {
                 self.change_aim(middle);
             }
             Key::Help => self.help = !self.help,
+            Key::Letter('h') => self.overlay = !self.overlay,
             _ => {}
         }
         false

@@ -476,7 +476,7 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 }
 
 fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
-    section.allow(&["device", "core", "priority", "spin_us"])?;
+    section.allow(&["device", "core", "priority", "spin_us", "overlay"])?;
     let devices: [(&[&str], HapticDevice); 6] = [
         (&["auto"], HapticDevice::Auto),
         (&["simulated"], HapticDevice::Simulated),
@@ -509,6 +509,7 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         core: number("core", 0..=1023)?,
         priority: number("priority", 1..=99)?,
         spin_us: number("spin_us", 0..=1000)?,
+        overlay: section.switch("overlay")?.unwrap_or(false),
     })
 }
 

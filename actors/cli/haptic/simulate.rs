@@ -136,7 +136,7 @@ fn stroke(args: &SimulateArgs, speed_m_s: f64, out: &mut dyn Write) -> Result<St
         peak_n = peak_n.max(report.force.0.length());
         let ball = rehearsal.ball(BallId::CUE);
         ball_m_s = ball_m_s.max(ball.map_or(0.0, |ball| ball.velocity.length()));
-        rows += &telemetry::row(&report);
+        rows += &telemetry::row(&report, 0.0);
         rows.push('\n');
     }
     if let Some(path) = &args.out {
