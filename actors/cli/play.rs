@@ -1,6 +1,8 @@
 //! `hapticbillard [play]`: the game.
 
 #[cfg(feature = "renderer")]
+mod felt;
+#[cfg(feature = "renderer")]
 mod in_window;
 
 use super::{Driver, Status, positive};
@@ -48,6 +50,10 @@ pub struct PlayArgs {
     /// Records nothing.
     #[arg(long)]
     pub no_record: bool,
+
+    /// Writes every tick of the haptic device's servo into this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    pub telemetry: Option<PathBuf>,
 
     /// The runtime of a game without a window.
     #[arg(long, value_enum, default_value_t)]
@@ -115,7 +121,7 @@ fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
 }
 
 /// Ends the game in order when somebody presses Ctrl-C.
-fn stop_at_interrupt() -> StopFlag {
+pub(super) fn stop_at_interrupt() -> StopFlag {
     // One handler for the whole program: who gets no window plays another game without one.
     static STOP: OnceLock<StopFlag> = OnceLock::new();
     let stop = STOP.get_or_init(|| {
@@ -136,6 +142,10 @@ fn play_without_window(
     stage: &Stage,
     out: &mut dyn Write,
 ) -> Result<Status, Error> {
+    if args.telemetry.is_some() {
+        let problem = "without a window no haptic device is felt";
+        return Err(Error::input("--telemetry", problem, "play a scene with [haptic] in a window"));
+    }
     let record = recording(args);
     let names: Vec<String> = stage.scene.players.iter().map(|player| player.name.clone()).collect();
     let how = Headless {

@@ -9,6 +9,8 @@ use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
 
+/// Where the hand of a mouse begins [m]: in front of what there is to touch.
+const MOUSE_START_M: DVec3 = DVec3::new(0.0, 0.0, 0.033);
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
 
@@ -72,8 +74,9 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             Ok(Some(Opened { device: Box::new(device), mouse: None }))
         }
         HapticDevice::Mouse => {
-            let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
-            let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
+            let hand = MouseHand::new(MouseFeel::default()).starting_at(MOUSE_START_M);
+            let guide = Guide::Mouse(hand);
+            let device = SimulatedDevice::new(spec, HandModel::MOUSE, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
             Ok(Some(Opened { device: Box::new(device), mouse: Some(MousePort(port)) }))
@@ -208,7 +211,7 @@ mod tests {
         let state = (0..2000).map(|_| device.read(0.001)).last().unwrap();
         // A quarter and an eighth of 160 mm, up to the device's dry friction against the hand.
         assert!((state.position.x - 0.04).abs() < 0.01, "{state:?}");
-        assert!((state.position.z + 0.02).abs() < 0.01, "{state:?}");
+        assert!((state.position.z - (0.033 - 0.02)).abs() < 0.01, "{state:?}");
         assert!(state.position.y.abs() < 0.01 && state.buttons == Buttons::FRONT, "{state:?}");
     }
 

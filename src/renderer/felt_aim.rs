@@ -2,7 +2,6 @@
 //! line of aim, where its tip meets the ball, and how fast it is.
 
 use super::draw_list::Radii;
-use crate::ball::Motion;
 use crate::cue::Aim;
 use crate::haptic::ServoReport;
 use crate::ids::BallId;
@@ -11,9 +10,12 @@ use crate::physics::Snapshot;
 use crate::table::Table;
 use glam::DVec3;
 
-/// Whether any ball moves.
+/// A slower ball seems to lie [m/s].
+const SLOW_M_S: f64 = 0.005;
+
+/// Whether any ball is seen to move.
 pub fn is_rolling(world: &Snapshot) -> bool {
-    world.on_table().any(|ball| ball.motion != Motion::Rest)
+    world.on_table().any(|ball| SLOW_M_S < ball.velocity.length())
 }
 
 /// The view of somebody who watches, with what the stylus does in place of aim and stroke: while

@@ -153,12 +153,12 @@ const BUTTON: [f32; 3] = [0.62, 0.64, 0.68];
 pub fn stylus_shape() -> Shape {
     // Distance behind the tip and radius, each part from its begin to its end.
     let parts: [(f64, f64, f64, f64, [f32; 3]); 6] = [
-        (0.001, 0.0013, 0.022, 0.0017, STEEL),
-        (0.022, 0.0017, 0.034, 0.0046, BODY),
-        (0.034, 0.0046, 0.062, 0.0052, GRIP),
-        (0.062, 0.0058, 0.070, 0.0058, BUTTON),
-        (0.070, 0.0052, 0.128, 0.0046, BODY),
-        (0.128, 0.0046, 0.132, 0.0, BODY),
+        (0.001, 0.0011, 0.024, 0.0014, STEEL),
+        (0.024, 0.0014, 0.034, 0.0032, BODY),
+        (0.034, 0.0032, 0.056, 0.0036, GRIP),
+        (0.056, 0.0041, 0.061, 0.0041, BUTTON),
+        (0.061, 0.0036, 0.108, 0.0030, BODY),
+        (0.108, 0.0030, 0.111, 0.0, BODY),
     ];
     let ends =
         parts.iter().flat_map(|&(from, r, to, s, colour)| [(from, r, colour), (to, s, colour)]);

@@ -1,5 +1,6 @@
 //! `hapticbillard haptic check`: the servo's thread on this machine.
 
+use crate::cli::play::stop_at_interrupt;
 use crate::cli::{Status, json_line, positive};
 use clap::Args;
 use glam::DVec3;
@@ -11,10 +12,12 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, Grant, Histogram, Obtained, Plan, Seat, Started, Timing, open,
+    Asked, Core, Grant, Histogram, Obtained, Plan, Seat, Started, Telemetry, Timing, Watch,
+    Written, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -59,6 +62,10 @@ pub struct CheckArgs {
     #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub spin_us: Option<u32>,
 
+    /// Writes every tick into this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    pub telemetry: Option<PathBuf>,
+
     /// Prints JSON lines.
     #[arg(long)]
     pub json: bool,
@@ -78,22 +85,35 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         return Err(Error::input("--seconds", problem, "write a number up to 86400"));
     }
     let stage = Stage::new(&load_scene(SCENE)?, SCENE)?;
+    let mut watch = Watch::default();
+    let telemetry = match &args.telemetry {
+        None => None,
+        Some(file) => {
+            let (telemetry, port) = Telemetry::begin(file, watch.timing.clone())?;
+            watch.telemetry = Some(port);
+            Some(telemetry)
+        }
+    };
     let seat = {
         let _load = args.load.then(Load::start);
-        felt(&stage, asked, Duration::from_secs_f64(args.seconds))?
+        felt(&stage, asked, watch, Duration::from_secs_f64(args.seconds))?
     };
+    let written = telemetry.map(Telemetry::finish).transpose()?;
     let timing = seat.timing();
     let is_ours = timing.overruns() * OVERRUN_IN > timing.ticks();
     if args.json {
-        json_line(out, &json!({ "summary": summary(args, &seat, asked) }))?;
+        json_line(out, &json!({ "summary": summary(args, &seat, asked, written.as_ref()) }))?;
     } else {
         print(&seat, asked, out)?;
+        if let Some(written) = written {
+            writeln!(out, "{written}")?;
+        }
     }
     Ok(if is_ours || !seat.is_running() { Status::CheckFailed } else { Status::Success })
 }
 
 /// Lets the scene be felt for a while, its balls handed over every millisecond.
-fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Error> {
+fn felt(stage: &Stage, asked: Asked, watch: Watch, duration: Duration) -> Result<Arc<Seat>, Error> {
     let balls = stage.scene.build_balls(&stage.table)?;
     let simulation = stage.simulation()?;
     let aim = Aim { elevation_rad: 0.2, ..Aim::default() };
@@ -113,11 +133,13 @@ fn felt(stage: &Stage, asked: Asked, duration: Duration) -> Result<Arc<Seat>, Er
         lay: None,
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
-    let Started { seat, mut world, .. } = Seat::start(plan)?;
+    // Ctrl-C ends it early, and in order.
+    let stop = stop_at_interrupt();
+    let Started { seat, mut world, .. } = Seat::start_watched(plan, watch)?;
     let held = seat.hold();
     let end = Instant::now() + duration;
     let table = simulation.snapshot(simulation.now_s());
-    while Instant::now() < end && seat.is_running() {
+    while Instant::now() < end && seat.is_running() && !stop.is_set() {
         world.show(&table);
         std::thread::sleep(Duration::from_millis(1));
     }
@@ -186,7 +208,7 @@ fn quantiles(histogram: &Histogram) -> Value {
     json!({ "p50": p50, "p99": p99, "p99_9": p99_9, "max": us(histogram.most()) })
 }
 
-fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
+fn summary(args: &CheckArgs, seat: &Seat, asked: Asked, written: Option<&Written>) -> Value {
     let (timing, obtained) = (seat.timing(), seat.obtained());
     let rights = |wanted: Value, grant: &Grant| json!({ "asked": wanted, "outcome": grant });
     json!({
@@ -202,6 +224,9 @@ fn summary(args: &CheckArgs, seat: &Seat, asked: Asked) -> Value {
         "lateness_us": quantiles(&timing.lateness),
         "work_us": quantiles(&timing.work),
         "overruns": timing.overruns(),
+        "telemetry": written.map(|Written { path, rows, lost }| {
+            json!({ "file": path, "rows": rows, "lost": lost })
+        }),
     })
 }
 

@@ -1,8 +1,9 @@
 //! A game in a window: the ports of both joined.
 
+use super::felt::{Watched, felt};
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{Human, HumanView, RawInput};
+use hapticbillard::input::{Human, HumanView, MouseSplit, RawInput, Reader};
 use hapticbillard::renderer::Radii;
 use hapticbillard::replay::{RecordedInput, Recording};
 use hapticbillard::rules::Language;
@@ -11,7 +12,7 @@ use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
-use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus};
+use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus, Watch};
 use hapticbillard_actors::input::WindowHand;
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
@@ -48,12 +49,17 @@ pub fn play_in_window(
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
     let record = recording(args);
-    let finished = match shown(stage, None, record.clone(), args.speed)? {
+    let mut felt = felt(stage, stage.cast()?.human.is_none(), args.telemetry.as_deref())?;
+    let telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
+    let finished = match shown(stage, None, felt, record.clone(), args.speed)? {
         Ok(finished) => finished?,
         Err(NoWindow(why)) => return Ok(Err(format!("no window ({why})"))),
     };
     tidy_up(args, record.as_ref());
     writeln!(out, "{}", describe(finished.end))?;
+    if let Some(telemetry) = telemetry {
+        writeln!(out, "{}", telemetry.finish()?)?;
+    }
     if let Some(path) = &record {
         writeln!(out, "recorded: {}", path.display())?;
     }
@@ -62,7 +68,7 @@ pub fn play_in_window(
 
 /// Plays a recording back in a window.
 pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
-    match shown(stage, Some(recording), None, 1.0)? {
+    match shown(stage, Some(recording), None, None, 1.0)? {
         Ok(finished) => finished.map(|_| Status::Success).map_err(Error::from),
         Err(NoWindow(why)) => {
             Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
@@ -75,6 +81,7 @@ type Shown = Result<Result<Finished, RunError>, NoWindow>;
 fn shown(
     stage: &Stage,
     replay: Option<Arc<Recording>>,
+    felt: Option<Watched>,
     record: Option<PathBuf>,
     speed: f64,
 ) -> Result<Shown, Error> {
@@ -84,6 +91,10 @@ fn shown(
         .with_tip(stage.scene.parameters().tip_radius_m);
     let renderer = stage.scene.renderer;
     let stop = stop_at_interrupt();
+    let (mut plan, watch, shown) = match felt {
+        Some(Watched { plan, watch, shown, .. }) => (Some(plan), watch, Some(shown)),
+        None => (None, Watch::default(), None),
+    };
     let setup = WindowSetup {
         title: format!("HapticBillard: {}", stage.scene.about.name),
         size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
@@ -95,20 +106,17 @@ fn shown(
         language: language(),
         stop: stop.clone(),
         radii: radii.clone(),
+        felt: shown,
     };
     let hand = cast.human.take().filter(|_| replay.is_none());
     let table = stage.table.clone();
     let record = record.map(|path| (path, stage.header()));
     let physics_thread = stage.scene.physics.thread;
-    let mut plan = match &replay {
-        Some(_) => None,
-        None => stage.haptic()?,
-    };
     let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
     let has_cue = stage.scene.cue.is_some();
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
-        let started = plan.map(Seat::start).transpose();
+        let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
         let (haptic, stylus) = match started {
             Some(Started { seat, world, stylus }) => (Some(Felt { seat, world }), Some(stylus)),
@@ -124,7 +132,7 @@ fn shown(
                 // Nobody's hand: it looks round, and stops time.
                 let eye = Human::new(Vec::new(), table);
                 let seen = Vec::new();
-                let felt = mouse.map(FeltMouse::new);
+                let felt = mouse.map(|mouse| (MouseSplit::default(), FeltMouse::new(mouse)));
                 let stylus = stylus.filter(|_| has_cue).map(Stylus::new);
                 let who = Spectator { recorded, eye, raw, view, seen, felt, stylus };
                 InputPort::StandIn(Box::new(who))
@@ -157,7 +165,7 @@ struct Spectator {
     view: triple_buffer::Input<HumanView>,
     seen: Vec<RawInput>,
     /// The hand at the haptic device that a mouse moves.
-    felt: Option<FeltMouse>,
+    felt: Option<(MouseSplit, FeltMouse)>,
     /// The stylus that strikes, where there is a cue.
     stylus: Option<Stylus>,
 }
@@ -166,8 +174,14 @@ impl FrameSource for Spectator {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.seen.clear();
         self.seen.extend(self.raw.try_iter());
-        if let Some(felt) = &mut self.felt {
-            self.seen.iter().for_each(|report| felt.hear(report));
+        if let Some((split, felt)) = &mut self.felt {
+            self.seen.retain(|report| {
+                let reader = split.reader(report);
+                if reader != Reader::Eye {
+                    felt.hear(report);
+                }
+                reader != Reader::Hand
+            });
         }
         let own = self.eye.inflow(tick, &self.seen);
         self.view.write(self.eye.view());

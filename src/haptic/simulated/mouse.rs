@@ -46,6 +46,12 @@ impl MouseHand {
         MouseHand { feel, wanted: DVec3::ZERO, shown: DVec3::ZERO, buttons: Buttons::default() }
     }
 
+    /// The same, beginning at a place [m].
+    #[must_use]
+    pub fn starting_at(self, place: DVec3) -> Self {
+        MouseHand { wanted: place, shown: place, ..self }
+    }
+
     /// The mouse moved, in heights of the window.
     pub fn moved(&mut self, right: f64, up: f64) {
         let way = if self.buttons.has(Buttons::FRONT) {
