@@ -28,3 +28,6 @@ pub use human::Human;
 
 mod mouse_split;
 pub use mouse_split::{MouseSplit, Reader};
+
+mod led;
+pub use led::{Led, LedHuman};

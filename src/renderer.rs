@@ -30,7 +30,7 @@ pub use draw_list::{
     BallInstance, DrawList, GhostBall, Line, Radii, Solid, SolidShape, StylusPose,
 };
 pub use felt::{FeltLook, FeltTool, force_colour};
-pub use felt_aim::{aimed_by_stylus, is_rolling};
+pub use felt_aim::aimed_by_stylus;
 pub use felt_eye::FeltEye;
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, ball_look};

@@ -117,6 +117,11 @@ pub enum MouseMove {
     Wheel(f64),
     /// These buttons are held now.
     Held(Buttons),
+    /// The hand goes back to where it began: in depth, or altogether.
+    Back {
+        /// Altogether.
+        home: bool,
+    },
 }
 
 /// The way from a mouse into the hand.
@@ -135,12 +140,25 @@ impl MousePort {
 pub struct FeltMouse {
     port: MousePort,
     held: Buttons,
+    /// After a stroke the hand draws back by itself.
+    draws_back: bool,
 }
 
 impl FeltMouse {
     /// A mouse without a button held.
     pub fn new(port: MousePort) -> Self {
-        FeltMouse { port, held: Buttons::default() }
+        FeltMouse { port, held: Buttons::default(), draws_back: false }
+    }
+
+    /// The same of somebody who strikes: after each stroke the hand draws back by itself.
+    #[must_use]
+    pub fn striking(self) -> Self {
+        FeltMouse { draws_back: true, ..self }
+    }
+
+    /// The hand goes back to where it began.
+    pub fn go_home(&mut self) {
+        let _ = self.port.say(MouseMove::Back { home: true });
     }
 
     /// Takes a report.
@@ -165,6 +183,10 @@ impl FeltMouse {
         };
         // A full ring loses movements; whatever is held is said again with the next button.
         let _ = self.port.say(heard);
+        let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
+        if is_let_go && self.draws_back {
+            let _ = self.port.say(MouseMove::Back { home: false });
+        }
     }
 }
 
@@ -186,6 +208,7 @@ impl Device for MouseDevice {
                     MouseMove::Moved { right, up } => hand.moved(right, up),
                     MouseMove::Wheel(notches) => hand.wheel(notches),
                     MouseMove::Held(buttons) => hand.hold(buttons),
+                    MouseMove::Back { home } => hand.go_back(home),
                 }
             }
         }

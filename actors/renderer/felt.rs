@@ -2,11 +2,10 @@
 
 use crate::haptic::Timing;
 use hapticbillard::haptic::ServoReport;
-use hapticbillard::input::HumanView;
+use hapticbillard::input::{HumanMode, HumanView};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    DrawList, FeltEye, FeltLook, FeltTool, Hud, Overlay, Punctuality, Radii, Words,
-    aimed_by_stylus, is_rolling,
+    DrawList, FeltEye, FeltLook, FeltTool, Hud, Overlay, Punctuality, Radii, Words, aimed_by_stylus,
 };
 use hapticbillard::table::Table;
 use std::sync::Arc;
@@ -28,6 +27,8 @@ pub struct FeltSetup {
     pub overlay: bool,
     /// Whoever holds it plays: the camera is behind its workspace.
     pub leads: bool,
+    /// There are turns; in those of others the camera is elsewhere.
+    pub has_turns: bool,
     /// A mouse moves the hand.
     pub by_mouse: bool,
 }
@@ -70,16 +71,25 @@ impl FeltScreen {
     ) -> HumanView {
         let dt = now_s - std::mem::replace(&mut self.drawn_s, now_s);
         let report = self.setup.report.output_buffer();
-        let Some(workspace) = report.workspace.filter(|_| self.setup.leads) else {
+        if !self.setup.leads {
             return view.clone();
-        };
-        let camera = self.eye.follow(&workspace, &view.look, is_rolling(world), dt);
-        let camera = if view.look.bird { view.camera } else { camera };
-        let view = HumanView { camera, ..view.clone() };
-        match self.setup.look.tool {
-            FeltTool::Stylus => view,
-            FeltTool::Cue => aimed_by_stylus(&view, report, world, table, radii),
         }
+        let is_away = match view.mode {
+            HumanMode::Placing => true,
+            HumanMode::Watching => self.setup.has_turns,
+            HumanMode::Aiming | HumanMode::Stroking | HumanMode::Paused => false,
+        };
+        let wanted = match report.workspace {
+            Some(workspace) if !is_away && !view.look.bird => {
+                self.eye.behind(&workspace, &view.look, world.is_rolling())
+            }
+            _ => view.camera,
+        };
+        let view = HumanView { camera: self.eye.follow(wanted, dt), ..view.clone() };
+        if self.setup.look.tool == FeltTool::Stylus || is_away {
+            return view;
+        }
+        aimed_by_stylus(&view, report, world, table, radii)
     }
 
     /// Adds it to a picture.

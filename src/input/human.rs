@@ -121,6 +121,11 @@ impl Human {
         }
     }
 
+    /// Whether there is anybody to play for.
+    pub fn plays(&self) -> bool {
+        !self.players.is_empty()
+    }
+
     /// The same for a cue ball of another radius [m].
     #[must_use]
     pub fn with_ball_radius(mut self, radius_m: f64) -> Self {

@@ -43,6 +43,11 @@ impl MouseSplit {
         }
     }
 
+    /// Whether this key is down.
+    pub fn holds(&self, key: Key) -> bool {
+        self.held.has(key)
+    }
+
     fn is_looking(&self) -> bool {
         self.held.has_button(Button::Middle) || self.held.has(Key::Letter('c'))
     }

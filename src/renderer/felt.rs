@@ -8,8 +8,8 @@ use crate::cue::CuePose;
 use crate::haptic::{ReachSettings, ServoReport, WorkspacePose};
 use glam::DVec3;
 
-/// Length of the arrow [m of the device per N]: the greatest force of an Omni is 6 cm.
-const ARROW_M_PER_N: f64 = 0.018;
+/// Length of the arrow [m of the device per N]: the greatest force of an Omni is 8 cm.
+const ARROW_M_PER_N: f64 = 0.024;
 /// A smaller force shows no arrow [N].
 const ARROW_LEAST_N: f64 = 0.02;
 /// Half the width of the arrow's shaft, of its head, and the head's length [m of the device].

@@ -10,16 +10,8 @@ use crate::physics::Snapshot;
 use crate::table::Table;
 use glam::DVec3;
 
-/// A slower ball seems to lie [m/s].
-const SLOW_M_S: f64 = 0.005;
-
-/// Whether any ball is seen to move.
-pub fn is_rolling(world: &Snapshot) -> bool {
-    world.on_table().any(|ball| SLOW_M_S < ball.velocity.length())
-}
-
-/// The view of somebody who watches, with what the stylus does in place of aim and stroke: while
-/// all balls lie, and the tip is behind the cue ball.
+/// The view of somebody at the table, with what the stylus does in place of aim and stroke: while all
+/// balls lie, and the tip is behind the cue ball. Otherwise nobody aims.
 #[must_use]
 pub fn aimed_by_stylus(
     view: &HumanView,
@@ -29,7 +21,7 @@ pub fn aimed_by_stylus(
     radii: &Radii,
 ) -> HumanView {
     let aimed = || {
-        if view.mode != HumanMode::Watching || is_rolling(world) {
+        if !matches!(view.mode, HumanMode::Watching | HumanMode::Aiming) || world.is_rolling() {
             return None;
         }
         let centre = world.on_table().find(|ball| ball.id == BallId::CUE)?.position;
@@ -60,5 +52,9 @@ pub fn aimed_by_stylus(
             ..view.clone()
         })
     };
-    aimed().unwrap_or_else(|| view.clone())
+    let watching = match view.mode {
+        HumanMode::Aiming => HumanMode::Watching,
+        mode => mode,
+    };
+    aimed().unwrap_or_else(|| HumanView { mode: watching, ..view.clone() })
 }

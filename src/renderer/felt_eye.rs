@@ -40,15 +40,8 @@ impl FeltEye {
         FeltEye { usual, shown: None }
     }
 
-    /// The picture `dt` after the last one, behind `workspace`.
-    pub fn follow(
-        &mut self,
-        workspace: &WorkspacePose,
-        look: &Look,
-        is_rolling: bool,
-        dt: Seconds,
-    ) -> CameraPose {
-        let wanted = self.behind(workspace, look, is_rolling);
+    /// The picture `dt` after the last one, where `wanted` is the place to be.
+    pub fn follow(&mut self, wanted: CameraPose, dt: Seconds) -> CameraPose {
         let share = -libm::expm1(-dt.max(0.0) / FOLLOW_S);
         let shown = self.shown.map_or(wanted, |shown| CameraPose {
             eye: shown.eye.lerp(wanted.eye, share),
@@ -59,8 +52,8 @@ impl FeltEye {
         shown
     }
 
-    /// Where the eye wants to be.
-    fn behind(&self, workspace: &WorkspacePose, look: &Look, is_rolling: bool) -> CameraPose {
+    /// Behind a workspace, and farther away while balls roll.
+    pub fn behind(&self, workspace: &WorkspacePose, look: &Look, is_rolling: bool) -> CameraPose {
         let (eye, target) =
             if is_rolling { (ROLLING_EYE_M, ROLLING_TARGET_M) } else { (self.usual, TARGET_M) };
         // Turned, raised and zoomed about what is looked at.
@@ -113,13 +106,13 @@ mod tests {
         let mut eye = FeltEye::new(FeltTool::Cue);
         let (here, there) = (workspace(0.0, DVec3::ZERO), workspace(1.0, DVec3::X));
         let look = Look::default();
-        let first = eye.follow(&here, &look, false, 0.0);
+        let first = eye.follow(eye.behind(&here, &look, false), 0.0);
         assert_eq!(first, eye.behind(&here, &look, false));
-        let next = eye.follow(&there, &look, false, 0.016);
+        let next = eye.follow(eye.behind(&there, &look, false), 0.016);
         let whole = eye.behind(&there, &look, false).eye.distance(first.eye);
         assert!(next.eye.distance(first.eye) < 0.2 * whole);
         for _ in 0..120 {
-            eye.follow(&there, &look, false, 0.016);
+            eye.follow(eye.behind(&there, &look, false), 0.016);
         }
         assert!(eye.shown.unwrap().eye.distance(eye.behind(&there, &look, false).eye) < 1e-4);
     }

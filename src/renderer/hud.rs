@@ -153,7 +153,7 @@ impl Hud {
     ) -> Self {
         let Some(tool) = by_mouse else { return Hud { felt, ..self } };
         let hint = match (tool, view.mode) {
-            (_, HumanMode::Paused) => self.hint,
+            (_, HumanMode::Paused | HumanMode::Placing) => self.hint,
             (FeltTool::Stylus, _) => words.get("felt_touch"),
             (FeltTool::Cue, HumanMode::Stroking) => words.get("felt_stroke"),
             (FeltTool::Cue, HumanMode::Aiming) => words.get("felt_aim"),

@@ -52,6 +52,7 @@ pub fn felt(stage: &Stage, leads: bool, file: Option<&Path>) -> Result<Option<Wa
         device: format!("{}, {}", section.device.name(), spec.model),
         overlay: section.overlay,
         leads,
+        has_turns: !stage.scene.human_players().is_empty(),
         by_mouse: leads && plan.opened.mouse.is_some(),
     };
     Ok(Some(Watched { plan, watch, shown, telemetry }))

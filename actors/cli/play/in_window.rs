@@ -3,7 +3,7 @@
 use super::felt::{Watched, felt};
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{Human, HumanView, MouseSplit, RawInput, Reader};
+use hapticbillard::input::{Human, HumanView, LedHuman, RawInput};
 use hapticbillard::renderer::Radii;
 use hapticbillard::replay::{RecordedInput, Recording};
 use hapticbillard::rules::Language;
@@ -13,7 +13,7 @@ use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{FeltMouse, Seat, Started, Stylus, Watch};
-use hapticbillard_actors::input::WindowHand;
+use hapticbillard_actors::input::{LedHand, WindowHand};
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
 use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
@@ -114,6 +114,8 @@ fn shown(
     let physics_thread = stage.scene.physics.thread;
     let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
     let has_cue = stage.scene.cue.is_some();
+    let players = stage.scene.human_players();
+    let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let game = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
@@ -127,14 +129,21 @@ fn shown(
                 let hand = hand.with_ball_radius(radii.of(BallId::CUE));
                 InputPort::Hand(Box::new(WindowHand::new(hand, raw, view)))
             }
+            None if haptic.is_some() => {
+                let human = Human::new(players, table)
+                    .with_ball_radius(radii.of(BallId::CUE))
+                    .with_tip_radius(tip_radius_m);
+                let stylus = stylus.filter(|_| has_cue).map(Stylus::new);
+                let mouse = mouse.map(FeltMouse::new);
+                let mouse = mouse.map(|mouse| if has_cue { mouse.striking() } else { mouse });
+                let core = LedHuman::new(human);
+                InputPort::Hand(Box::new(LedHand::new(core, raw, view, mouse, stylus)))
+            }
             None => {
                 let recorded = replay.map(RecordedInput);
                 // Nobody's hand: it looks round, and stops time.
                 let eye = Human::new(Vec::new(), table);
-                let seen = Vec::new();
-                let felt = mouse.map(|mouse| (MouseSplit::default(), FeltMouse::new(mouse)));
-                let stylus = stylus.filter(|_| has_cue).map(Stylus::new);
-                let who = Spectator { recorded, eye, raw, view, seen, felt, stylus };
+                let who = Spectator { recorded, eye, raw, view, seen: Vec::new() };
                 InputPort::StandIn(Box::new(who))
             }
         };
@@ -156,40 +165,23 @@ fn shown(
     Ok(show(setup, game))
 }
 
-/// Nobody at mouse and keyboard plays: a recording does, a stylus, or nobody; the camera is the
-/// spectator's.
+/// Nobody at mouse and keyboard plays: a recording does, or nobody; the camera is the spectator's.
 struct Spectator {
     recorded: Option<RecordedInput>,
     eye: Human,
     raw: flume::Receiver<RawInput>,
     view: triple_buffer::Input<HumanView>,
     seen: Vec<RawInput>,
-    /// The hand at the haptic device that a mouse moves.
-    felt: Option<(MouseSplit, FeltMouse)>,
-    /// The stylus that strikes, where there is a cue.
-    stylus: Option<Stylus>,
 }
 
 impl FrameSource for Spectator {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.seen.clear();
         self.seen.extend(self.raw.try_iter());
-        if let Some((split, felt)) = &mut self.felt {
-            self.seen.retain(|report| {
-                let reader = split.reader(report);
-                if reader != Reader::Eye {
-                    felt.hear(report);
-                }
-                reader != Reader::Hand
-            });
-        }
         let own = self.eye.inflow(tick, &self.seen);
         self.view.write(self.eye.view());
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
-        let mut recorded = recorded.unwrap_or_default();
-        if let Some(stylus) = &mut self.stylus {
-            recorded.frame.extend(stylus.frame(tick));
-        }
+        let recorded = recorded.unwrap_or_default();
         // What the spectator's hand would publish is not part of the game.
         Inflow {
             frame: recorded.frame,

@@ -35,6 +35,7 @@ impl Default for MouseFeel {
 #[derive(Debug, Clone)]
 pub struct MouseHand {
     feel: MouseFeel,
+    home: DVec3,
     wanted: DVec3,
     shown: DVec3,
     buttons: Buttons,
@@ -43,13 +44,22 @@ pub struct MouseHand {
 impl MouseHand {
     /// A hand in the middle of the workspace.
     pub fn new(feel: MouseFeel) -> Self {
-        MouseHand { feel, wanted: DVec3::ZERO, shown: DVec3::ZERO, buttons: Buttons::default() }
+        let home = DVec3::ZERO;
+        MouseHand { feel, home, wanted: home, shown: home, buttons: Buttons::default() }
     }
 
     /// The same, beginning at a place [m].
     #[must_use]
     pub fn starting_at(self, place: DVec3) -> Self {
-        MouseHand { wanted: place, shown: place, ..self }
+        MouseHand { home: place, wanted: place, shown: place, ..self }
+    }
+
+    /// Goes back to where it began: altogether, or only towards the user and away.
+    pub fn go_back(&mut self, altogether: bool) {
+        if altogether {
+            self.wanted = self.home;
+        }
+        self.wanted.z = self.home.z;
     }
 
     /// The mouse moved, in heights of the window.
