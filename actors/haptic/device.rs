@@ -117,11 +117,10 @@ pub enum MouseMove {
     Wheel(f64),
     /// These buttons are held now.
     Held(Buttons),
-    /// The hand goes back to where it began: in depth, or altogether.
-    Back {
-        /// Altogether.
-        home: bool,
-    },
+    /// The hand draws back in depth to where it began, once the finger has let go.
+    DrawBack,
+    /// The hand goes back to where it began.
+    Home,
 }
 
 /// The way from a mouse into the hand.
@@ -158,7 +157,7 @@ impl FeltMouse {
 
     /// The hand goes back to where it began.
     pub fn go_home(&mut self) {
-        let _ = self.port.say(MouseMove::Back { home: true });
+        let _ = self.port.say(MouseMove::Home);
     }
 
     /// Takes a report.
@@ -185,7 +184,7 @@ impl FeltMouse {
         let _ = self.port.say(heard);
         let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
         if is_let_go && self.draws_back {
-            let _ = self.port.say(MouseMove::Back { home: false });
+            let _ = self.port.say(MouseMove::DrawBack);
         }
     }
 }
@@ -208,7 +207,8 @@ impl Device for MouseDevice {
                     MouseMove::Moved { right, up } => hand.moved(right, up),
                     MouseMove::Wheel(notches) => hand.wheel(notches),
                     MouseMove::Held(buttons) => hand.hold(buttons),
-                    MouseMove::Back { home } => hand.go_back(home),
+                    MouseMove::DrawBack => hand.draw_back(),
+                    MouseMove::Home => hand.go_home(),
                 }
             }
         }
