@@ -10,8 +10,8 @@
 //! | Shift held | a tenth of everything | a tenth | |
 //!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
-//! somebody else holds `f`, and time runs faster.
+//! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause
+//! quits. Who waits for rolling balls or for somebody else holds `f`, and time runs faster.
 
 use super::camera::{Camera, Viewpoint};
 use super::feel::{

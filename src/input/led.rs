@@ -19,7 +19,8 @@ pub struct LedHuman {
     plays: bool,
     split: MouseSplit,
     seen: Arc<Snapshot>,
-    was_at_ball: bool,
+    /// A turn was called, and no ball was there to be struck since.
+    is_called: bool,
 }
 
 /// What a tick's reports are to whom.
@@ -43,7 +44,7 @@ impl LedHuman {
             plays,
             split: MouseSplit::default(),
             seen: Arc::default(),
-            was_at_ball: false,
+            is_called: false,
         }
     }
 
@@ -70,7 +71,7 @@ impl LedHuman {
         inflow.hurried |= self.split.holds(Key::Letter('f')) && self.seen.is_rolling();
 
         let is_at_ball = self.human.view().mode == HumanMode::Aiming;
-        let begins = is_at_ball && !std::mem::replace(&mut self.was_at_ball, is_at_ball);
+        let begins = is_at_ball && std::mem::take(&mut self.is_called);
         Led { inflow, strikes: is_at_ball || !self.plays, begins }
     }
 
@@ -95,6 +96,8 @@ impl Participant for LedHuman {
 
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
         self.seen = delivered.table.clone();
+        let is_call = |event: &Event| matches!(event, Event::Turn(_));
+        self.is_called |= delivered.events.iter().any(|stamped| is_call(&stamped.event));
         self.human.collect(delivered)
     }
 

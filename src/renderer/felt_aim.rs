@@ -10,8 +10,8 @@ use crate::physics::Snapshot;
 use crate::table::Table;
 use glam::DVec3;
 
-/// The view of somebody at the table, with what the stylus does in place of aim and stroke: while all
-/// balls lie, and the tip is behind the cue ball. Otherwise nobody aims.
+/// The view of somebody at the table, with what the stylus does in place of aim and stroke: while
+/// all balls lie, and the tip is behind the cue ball. Otherwise nobody aims.
 #[must_use]
 pub fn aimed_by_stylus(
     view: &HumanView,

@@ -1,8 +1,8 @@
 //! The stiffest wall that a haptic loop renders, against its period and its delay.
 //!
 //! Measured by bisection through the servo's own tick and the simulated device, with a bilateral
-//! wall and the safety stages off, as the cases of the closed loop are. Beside it stands what theory
-//! says of the same loop: the eigenvalues of one period, and formulas.
+//! wall and the safety stages off, as the cases of the closed loop are. Beside it stands what
+//! theory says of the same loop: the eigenvalues of one period, and formulas.
 
 use crate::haptic::DeviceSpec;
 use crate::haptic::simulated::{HandModel, discrete};
@@ -47,7 +47,7 @@ pub struct LoopRow {
     /// 2 b/T with the damping of the device alone: passive in any hand (Colgate and Schenkel 1997).
     /// With delay there is no such bound.
     pub passive_n_m: Option<f64>,
-    /// The same with dry friction and encoder of an Omni: at most 2 f_c/Δ (Abbott and Okamura 2005).
+    /// The same with dry friction and encoder of an Omni: at most 2 f_c/Δ (Abbott, Okamura 2005).
     pub passive_omni_n_m: Option<f64>,
 }
 
@@ -124,17 +124,17 @@ fn loop_matrix(point: &LoopPoint, stiffness: f64) -> Square {
 /// ln of the largest eigenvalue's size: ln |A^n|/n for n = 2^40 (Gelfand 1941).
 fn log_radius(matrix: &Square) -> f64 {
     const SQUARINGS: i32 = 40;
-    let (mut power, mut log) = (*matrix, 0.0);
+    let (mut power, mut ln) = (*matrix, 0.0);
     for _ in 0..SQUARINGS {
         let size = power.iter().flatten().fold(0.0_f64, |size, x| size.max(x.abs()));
         if !(size > 0.0) {
             return f64::NEG_INFINITY;
         }
         power.iter_mut().flatten().for_each(|x| *x /= size);
-        log = 2.0 * (log + libm::log(size));
+        ln = 2.0 * (ln + libm::log(size));
         power = squared(&power);
     }
-    log / libm::exp2(f64::from(SQUARINGS))
+    ln / libm::exp2(f64::from(SQUARINGS))
 }
 
 fn squared(matrix: &Square) -> Square {

@@ -36,8 +36,8 @@ fn reach(azimuth_rad: f64, cue: bool) -> Reach {
     }
 }
 
-/// A servo with a fixed ball at the pivot, or with none in reach, after its device was at `position`
-/// for a while.
+/// A servo with a fixed ball at the pivot, or with none in reach, after its device was at
+/// `position` for a while.
 fn held(position: DVec3, azimuth_rad: f64, ball: bool) -> ServoReport {
     let spec = DeviceSpec::OMNI;
     let safety = SafetySettings { force_max_n: 3.3, ..SafetySettings::OFF };

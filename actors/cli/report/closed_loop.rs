@@ -64,20 +64,21 @@ pub fn chapter(text: &mut String, rows: &[Timed]) {
     let _ = writeln!(
         text,
         "![largest stable stiffness against period and delay]({FIGURE})\n\n\
-         What a hand feels as a wall is a spring whose force is computed once a period and held in \
-         between, and may act some samples late. The stiffest wall at which a push dies away is \
-         found by bisection through the servo's own tick and the simulated device, with a wall that \
-         pushes and pulls, and without the safety stages. The device is a PHANTOM Omni of 45 g and \
-         0.1 N s/m without dry friction and with exact readings; nobody holds it, light fingers \
-         (L) do, or a soft grip (G). Eigenvalues are those of one period of the same loop; \
-         b/(T/2 + t_d) is the rule of Gil et al. (2004) with the damping of device and hand; \
-         2 b/T is passive in any hand (Colgate and Schenkel 1997), with an Omni's friction and \
-         encoder at most 2 f_c/Δ (Abbott and Okamura 2005). Run time is this machine's, \
+         What a hand feels as a wall is a spring whose force is computed once a period and held \
+         in between, and may act some samples late. The stiffest wall at which a push dies away \
+         is found by bisection through the servo's own tick and the simulated device, with a wall \
+         that pushes and pulls, and without the safety stages. The device is a PHANTOM Omni of 45 \
+         g and 0.1 N s/m without dry friction and with exact readings; nobody holds it, light \
+         fingers (L) do, or a soft grip (G). Eigenvalues are those of one period of the same \
+         loop; b/(T/2 + t_d) is the rule of Gil et al. (2004) with the damping of device and \
+         hand; 2 b/T is passive in any hand (Colgate and Schenkel 1997), with an Omni's friction \
+         and encoder at most 2 f_c/Δ (Abbott and Okamura 2005). Run time is this machine's, \
          {all_s:.1} s for all.\n"
     );
     text.push_str(
         "| hand | period [ms] | delay [samples] | measured [N/m] | eigenvalues | b/(T/2 + t_d) | \
-         2 b/T | with an Omni's friction | run time [ms] |\n|---|---|---|---|---|---|---|---|---|\n",
+         2 b/T | with an Omni's friction | run time [ms] |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
     );
     let number =
         |value: Option<f64>| value.map_or_else(|| String::from("-"), |value| format!("{value:.1}"));
@@ -103,7 +104,7 @@ pub fn chapter(text: &mut String, rows: &[Timed]) {
     let _ = writeln!(
         text,
         "\nMeasured limits are within {:.2} % of the eigenvalues. Each sample of delay costs as \
-         much as two half periods more: from 1 kHz to the 250 Hz of 2009 a wall loses a factor of \
+         much as two more half periods: from 1 kHz to the 250 Hz of 2009 a wall loses a factor of \
          four, and one sample of delay a factor of three.\n",
         1e2 * worst
     );
