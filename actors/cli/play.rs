@@ -29,7 +29,8 @@ recorded in the user's data folder, where the last 20 are kept.
 Examples:
   hapticbillard                              the same as: hapticbillard play --scene eight_ball
   hapticbillard play --scene free_play
-  hapticbillard play --seed 3 --record game.jsonl";
+  hapticbillard play --seed 3 --record game.jsonl
+  hapticbillard play --scene haptic_touch --telemetry touch.csv";
 
 /// Plays a game in a window.
 #[derive(Debug, Clone, Args)]

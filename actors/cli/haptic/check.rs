@@ -30,7 +30,8 @@ tick in 1000 worked for more than half a millisecond, which is the servo's own m
 
 Examples:
   hapticbillard haptic check
-  hapticbillard haptic check --seconds 15 --load --json";
+  hapticbillard haptic check --seconds 15 --load --json
+  hapticbillard haptic check --telemetry ticks.csv";
 
 /// The scene that is felt.
 const SCENE: &str = "eight_ball";
