@@ -95,8 +95,12 @@ mod tests {
             for k in 0..8_u8 {
                 let sign = |bit: u8| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
                 let corner = workspace.to_world(half * DVec3::new(sign(0), sign(1), sign(2)));
-                let way = (corner - pose.eye).normalize();
-                assert!(way.angle_between(ahead) < 0.5 * pose.field_of_view_rad, "{corner}");
+                let way = corner - pose.eye;
+                let right = ahead.cross(DVec3::Z).normalize();
+                let size = libm::tan(0.5 * pose.field_of_view_rad) * way.dot(ahead);
+                // In a picture of 16 to 9.
+                assert!(way.dot(right.cross(ahead)).abs() < size, "{tool:?} {corner}");
+                assert!(way.dot(right).abs() < 16.0 / 9.0 * size, "{tool:?} {corner}");
             }
         }
     }

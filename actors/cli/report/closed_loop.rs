@@ -162,6 +162,8 @@ where
         .configure_mesh()
         .x_desc(what)
         .y_desc("stiffness [N/m]")
+        .x_label_formatter(&|x| format!("{x}"))
+        .y_label_formatter(&|y| format!("{y}"))
         .axis_desc_style(("sans-serif", 15))
         .label_style(("sans-serif", 12))
         .light_line_style(WHITE)
