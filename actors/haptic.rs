@@ -13,12 +13,13 @@ mod haply;
 mod keeper;
 pub mod openhaptics;
 mod ports;
-mod recording;
 #[cfg(all(target_os = "linux", feature = "rtkit"))]
 mod realtime_kit;
+mod recording;
 mod rights;
 mod seat;
 mod stylus;
+mod telemetry;
 mod thread;
 mod timing;
 mod turns;
@@ -27,15 +28,16 @@ pub use body::Body;
 pub use control::{Haptic, Look, Looked, allowed};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
 pub use haply::NoHaply;
-pub use keeper::{Keeper, keep};
 pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
-    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
+    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
+    Watch, WorldPort,
 };
 pub use recording::{DeviceRecorder, Recorded, load as load_recording};
 pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
+pub use telemetry::{Telemetry, Written};
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
 pub use turns::{Call, Called, Explain, Scheduler, Turns};

@@ -61,7 +61,9 @@ pub use recording::{
     RecordingReader, RecordingWriter,
 };
 pub use rehearsal::Rehearsal;
-pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
+pub use report::{
+    ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
+};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;
 pub use settings::{

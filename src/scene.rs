@@ -306,6 +306,8 @@ pub struct HapticSection {
     pub priority: Option<u32>,
     /// How long before a deadline it stops sleeping and spins [µs].
     pub spin_us: Option<u32>,
+    /// The window begins with the panel of numbers.
+    pub overlay: bool,
 }
 
 /// A haptic device, as scenes name it.

@@ -2,7 +2,6 @@
 
 use super::HAPTIC;
 use super::seat::{Held, Seat};
-use super::timing::Timing;
 use glam::DVec2;
 use hapticbillard::ball::BallPlace;
 use hapticbillard::cue::Aim;

@@ -16,6 +16,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+/// Where the hand of a mouse begins [m]: in front of what there is to touch.
+const MOUSE_START_M: DVec3 = DVec3::new(0.0, 0.0, 0.033);
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
 
@@ -124,8 +126,9 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             Ok(Some(openhaptics::open(library.as_deref(), name.as_deref())?))
         }
         HapticDevice::Mouse => {
-            let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
-            let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide);
+            let hand = MouseHand::new(MouseFeel::default()).starting_at(MOUSE_START_M);
+            let guide = Guide::Mouse(hand);
+            let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::MOUSE, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
             Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
@@ -193,6 +196,10 @@ pub enum MouseMove {
     Wheel(f64),
     /// These buttons are held now.
     Held(Buttons),
+    /// The hand draws back in depth to where it began, once the finger has let go.
+    DrawBack,
+    /// The hand goes back to where it began.
+    Home,
 }
 
 /// The way from a mouse into the hand.
@@ -211,12 +218,25 @@ impl MousePort {
 pub struct FeltMouse {
     port: MousePort,
     held: Buttons,
+    /// After a stroke the hand draws back by itself.
+    draws_back: bool,
 }
 
 impl FeltMouse {
     /// A mouse without a button held.
     pub fn new(port: MousePort) -> Self {
-        FeltMouse { port, held: Buttons::default() }
+        FeltMouse { port, held: Buttons::default(), draws_back: false }
+    }
+
+    /// The same of somebody who strikes: after each stroke the hand draws back by itself.
+    #[must_use]
+    pub fn striking(self) -> Self {
+        FeltMouse { draws_back: true, ..self }
+    }
+
+    /// The hand goes back to where it began.
+    pub fn go_home(&mut self) {
+        let _ = self.port.say(MouseMove::Home);
     }
 
     /// Takes a report.
@@ -241,6 +261,10 @@ impl FeltMouse {
         };
         // A full ring loses movements; whatever is held is said again with the next button.
         let _ = self.port.say(heard);
+        let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
+        if is_let_go && self.draws_back {
+            let _ = self.port.say(MouseMove::DrawBack);
+        }
     }
 }
 
@@ -262,6 +286,8 @@ impl Device for MouseDevice {
                     MouseMove::Moved { right, up } => hand.moved(right, up),
                     MouseMove::Wheel(notches) => hand.wheel(notches),
                     MouseMove::Held(buttons) => hand.hold(buttons),
+                    MouseMove::DrawBack => hand.draw_back(),
+                    MouseMove::Home => hand.go_home(),
                 }
             }
         }
@@ -287,7 +313,7 @@ mod tests {
         let state = (0..2000).map(|_| device.read(0.001)).last().unwrap();
         // A quarter and an eighth of 160 mm, up to the device's dry friction against the hand.
         assert!((state.position.x - 0.04).abs() < 0.01, "{state:?}");
-        assert!((state.position.z + 0.02).abs() < 0.01, "{state:?}");
+        assert!((state.position.z - (0.033 - 0.02)).abs() < 0.01, "{state:?}");
         assert!(state.position.y.abs() < 0.01 && state.buttons == Buttons::FRONT, "{state:?}");
     }
 

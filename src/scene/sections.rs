@@ -476,7 +476,7 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 }
 
 fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
-    section.allow(&["device", "core", "priority", "spin_us"])?;
+    section.allow(&["device", "core", "priority", "spin_us", "overlay"])?;
     let text = section.text("device", "auto").ok().flatten();
     let nameless = |allowed: &str, fix: &str| Err(section.error("device", allowed, fix));
     let device = match text.as_deref() {
@@ -505,6 +505,7 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         core: number("core", 0..=1023)?,
         priority: number("priority", 1..=99)?,
         spin_us: number("spin_us", 0..=500)?,
+        overlay: section.switch("overlay")?.unwrap_or(false),
     })
 }
 

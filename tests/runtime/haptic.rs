@@ -4,6 +4,7 @@ use crate::cli::{folder, lines, program, text};
 use crate::mocks::haply_service::{Arm, Fault, HaplyService};
 use crate::servo::wait_for;
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn cases_are_rows_and_a_summary() {
@@ -213,4 +214,73 @@ fn a_scene_says_what_its_servo_will_get() {
     }
     let none = lines(&program(&["scene", "eight_ball", "--json"]).stdout);
     assert!(none.last().unwrap()["summary"]["servo"].is_null());
+}
+
+/// The ticks of a telemetry file, which begins with the names of its columns.
+fn ticks(file: &Path) -> Vec<u64> {
+    let text = fs::read_to_string(file).unwrap();
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let columns = rows.next().unwrap();
+    let late = columns.iter().position(|name| *name == "late_s").unwrap();
+    rows.map(|row| {
+        assert_eq!(row.len(), columns.len());
+        assert!(row[late].parse::<f64>().unwrap() >= 0.0);
+        row[0].parse().unwrap()
+    })
+    .collect()
+}
+
+#[test]
+fn telemetry_has_every_tick_once_and_in_order() {
+    let folder = folder("telemetry");
+    let file = folder.join("ticks.csv");
+    let path = file.to_str().unwrap();
+    let check = ["haptic", "check", "--seconds", "0.5", "--telemetry", path, "--json"];
+    let summary = lines(&program(&check).stdout)[0]["summary"].clone();
+    let told = &summary["telemetry"];
+    let ticks = ticks(&file);
+    assert_eq!([&told["rows"], &told["lost"]], [ticks.len(), 0], "{summary}");
+    assert!(ticks.len() > 10 && ticks.iter().zip(1..).all(|(tick, nth)| *tick == nth));
+    assert!(!folder.join("ticks.csv.part").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_check_leaves_whole_telemetry() {
+    use std::process::{Command, Stdio};
+    let folder = folder("telemetry_interrupted");
+    let (file, part) = (folder.join("ticks.csv"), folder.join("ticks.csv.part"));
+    let child = Command::new(env!("CARGO_BIN_EXE_hapticbillard"))
+        .args(["haptic", "check", "--seconds", "600", "--telemetry", file.to_str().unwrap()])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Once there are rows it runs, and hears.
+    let begun = || fs::metadata(&part).is_ok_and(|part| part.len() > 20_000);
+    let is_there = (0..1200).any(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        begun()
+    });
+    assert!(is_there, "no telemetry after a minute");
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let ticks = ticks(&file);
+    assert!(ticks.len() > 30 && !part.exists());
+    let told = text(&output.stdout);
+    assert!(told.contains(&format!("telemetry: {} ticks in ", ticks.len())), "{told}");
+}
+
+#[test]
+fn telemetry_without_anything_to_feel_is_refused_with_a_sentence() {
+    let folder = folder("telemetry_refused");
+    let path = folder.join("none.csv");
+    let asked = ["play", "--no-record", "--telemetry", path.to_str().unwrap(), "--scene"];
+    let output = program(&[&asked[..], &["eight_ball_headless"]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("play a scene with [haptic]"), "{output:?}");
+    assert!(!path.exists());
+    let nowhere = program(&["haptic", "check", "--telemetry", "/proc/none/ticks.csv"]);
+    assert_eq!(nowhere.status.code(), Some(2));
+    assert!(text(&nowhere.stderr).contains("cannot write /proc/none/ticks.csv"), "{nowhere:?}");
 }

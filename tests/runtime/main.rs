@@ -21,10 +21,10 @@ mod facts;
 mod failures;
 /// Files: sizes, kinds, writing whole.
 mod files;
-/// A Haply device at a service of our own.
-mod haply;
 /// From the stylus to the mouse and back.
 mod hand_over;
+/// A Haply device at a service of our own.
+mod haply;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.

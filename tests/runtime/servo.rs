@@ -9,7 +9,7 @@ use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics, Verdic
 use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
 use hapticbillard::haptic::{
     Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
-    Reach, ReachSettings, SafetyFlags, Servo, ServoSettings, Touched,
+    Reach, ReachSettings, SafetyFlags, Servo, ServoReport, ServoSettings, Touched,
 };
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::Snapshot;
@@ -21,7 +21,7 @@ use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
     AllPorts, Asked, Body, ControlPorts, Core, DeviceRecorder, Grant, Haptic, Look, Opened, Orders,
-    Plan, Seat, Signs, Started, Stylus, WorldPort, keep, open,
+    Plan, Seat, Signs, Started, Stylus, Watch, WorldPort, keep, open,
 };
 use hapticbillard_actors::pacer::Tempo;
 use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
@@ -159,14 +159,19 @@ fn a_turn_of_the_loop_allocates_nothing() {
     };
     let orders = Orders { effects: push(1), reach: Some(reach), stiffness_max_n_m: 500.0 };
     let bodies = balls.into_iter().map(|(ball, _)| ball).collect();
+    // A window and a file look on.
+    let (picture, mut shown) = triple_buffer::triple_buffer(&ServoReport::default());
+    let (telemetry, mut rows) = rtrb::RingBuffer::new(64);
+    let (picture, telemetry) = (Some(picture), Some(telemetry));
+    let watch = Watch { picture, telemetry, ..Watch::default() };
     let AllPorts { servo, mut control, mut stylus, mut world, signs } =
-        AllPorts::new(orders, bodies);
+        AllPorts::watched(orders, bodies, watch);
     let device = open(&HapticDevice::Simulated).unwrap().unwrap().device;
     let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI))
         .among(Arc::new(HapticMesh::of(&stage.table)));
     let mut body = Body::new(device, rendered, servo);
     signs.hold(true);
-    let mut felt_n = 0.0_f64;
+    let (mut felt_n, mut told) = (0.0_f64, 0_u64);
     for tick in 0_u32..5000 {
         if tick % 3 == 0 {
             world.show(&table);
@@ -178,11 +183,25 @@ fn a_turn_of_the_loop_allocates_nothing() {
         // For a while nobody takes samples: the ring is full.
         if !(2000..3000).contains(&tick) {
             while stylus.samples.pop().is_ok() {}
+            while let Ok(row) = rows.pop() {
+                assert_eq!((row.report.sample.tick, row.late_ns), (told + 1, 7));
+                told += 1;
+            }
         }
         let before = calls();
+        body.begin_late(7);
         let force = body.turn(0.001).force;
         assert_eq!(calls() - before, 0, "tick {tick}");
         felt_n = felt_n.max(force.0.length());
+        assert_eq!(shown.read().sample.tick, u64::from(tick) + 1);
+        if tick == 2999 {
+            // What waited is told; what found no room is lost, and counted.
+            assert_eq!(control.timing.lost_rows(), 1001 - 64);
+            while rows.pop().is_ok() {
+                told += 1;
+            }
+            told += control.timing.lost_rows();
+        }
     }
     assert!(felt_n > 0.05, "nothing was felt");
     assert!(control.timing.lost_samples() > 500, "the ring was never full");

@@ -1,5 +1,6 @@
 //! `hapticbillard haptic check`: the servo's thread on this machine.
 
+use super::load::Load;
 use crate::cli::play::stop_at_interrupt;
 use crate::cli::{Status, json_line, positive};
 use clap::Args;
@@ -14,14 +15,13 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Plan, Recorded, Seat, Started, Timing,
-    allowed, open,
+    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Plan, Recorded, Seat, Started,
+    Telemetry, Timing, Watch, Written, allowed, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const EXAMPLE: &str = "\
@@ -43,7 +43,8 @@ Examples:
   hapticbillard haptic check --seconds 15 --load --json
   hapticbillard haptic check --device openhaptics
   hapticbillard haptic check --device haply --seconds 60 --record hand.jsonl
-  hapticbillard haptic check --device recorded:hand.jsonl";
+  hapticbillard haptic check --device recorded:hand.jsonl
+  hapticbillard haptic check --telemetry ticks.csv";
 
 /// The scene that is felt.
 const SCENE: &str = "eight_ball";
@@ -83,6 +84,10 @@ pub struct CheckArgs {
     #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=500))]
     pub spin_us: Option<u32>,
 
+    /// Writes every tick into this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    pub telemetry: Option<PathBuf>,
+
     /// Prints JSON lines.
     #[arg(long)]
     pub json: bool,
@@ -104,6 +109,8 @@ struct Checked {
     is_in_trouble: bool,
     /// What was recorded, where that was wanted.
     recorded: Option<Recorded>,
+    /// The telemetry that was written, where that was wanted.
+    written: Option<Written>,
 }
 
 /// Runs the servo and tells.
@@ -130,6 +137,9 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         json_line(out, &json!({ "summary": summary(args, &checked, asked) }))?;
     } else {
         print(&checked, asked, out)?;
+        if let Some(written) = &checked.written {
+            writeln!(out, "{written}")?;
+        }
     }
     Ok(if is_ours || checked.is_in_trouble { Status::CheckFailed } else { Status::Success })
 }
@@ -162,9 +172,19 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
         lay: None,
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
-    let Started { seat, mut world, .. } = Seat::start(plan)?;
-    let mut held = seat.hold();
+    // Ctrl-C ends it early, and in order.
     let stop = stop_at_interrupt();
+    let mut watch = Watch::default();
+    let telemetry = match &args.telemetry {
+        None => None,
+        Some(file) => {
+            let (telemetry, port) = Telemetry::begin(file, watch.timing.clone())?;
+            watch.telemetry = Some(port);
+            Some(telemetry)
+        }
+    };
+    let Started { seat, mut world, .. } = Seat::start_watched(plan, watch)?;
+    let mut held = seat.hold();
     let end = Instant::now() + Duration::from_secs_f64(args.seconds);
     let table = simulation.snapshot(simulation.now_s());
     let mut troubles = Vec::new();
@@ -178,7 +198,8 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
     troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
     drop(held);
     let recorded = recorder.map(DeviceRecorder::finish).transpose()?;
-    Ok(Checked { seat, counters, troubles, is_in_trouble, recorded })
+    let written = telemetry.map(Telemetry::finish).transpose()?;
+    Ok(Checked { seat, counters, troubles, is_in_trouble, recorded, written })
 }
 
 /// Eight effects, weak enough for the hand to pass through all of them.
@@ -198,39 +219,6 @@ fn effects() -> EffectSet {
             Effect::StickSlip { region, stiffness_n_m, force_max_n: 0.1 },
         ],
     )
-}
-
-/// Threads that compute for nothing, one for each core, until they are dropped.
-struct Load {
-    stop: Arc<AtomicBool>,
-    threads: Vec<std::thread::JoinHandle<()>>,
-}
-
-impl Load {
-    fn start() -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = (0..cores).map(|_| {
-            let stop = stop.clone();
-            std::thread::spawn(move || {
-                let mut x = 0_u64;
-                while !stop.load(Ordering::Relaxed) {
-                    x = std::hint::black_box(x.wrapping_mul(6_364_136_223_846_793_005) + 1);
-                }
-            })
-        });
-        Load { threads: threads.collect(), stop }
-    }
-}
-
-impl Drop for Load {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        for thread in self.threads.drain(..) {
-            // It computes nothing that it could fail at.
-            let _ = thread.join();
-        }
-    }
 }
 
 fn us(ns: u64) -> f64 {
@@ -278,6 +266,9 @@ fn summary(args: &CheckArgs, checked: &Checked, asked: Asked) -> Value {
             "stalls": counters.stalls,
             "too_fast": counters.too_fast,
         },
+        "telemetry": checked.written.as_ref().map(|Written { path, rows, lost }| {
+            json!({ "file": path, "rows": rows, "lost": lost })
+        }),
     })
 }
 

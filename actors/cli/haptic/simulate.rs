@@ -177,7 +177,7 @@ fn strike(
         let ball = rehearsal.ball(BallId::CUE);
         ball_m_s = ball_m_s.max(ball.map_or(0.0, |ball| ball.velocity.length()));
         if args.out.is_some() {
-            rows += &telemetry::row(&report);
+            rows += &telemetry::row(&report, 0.0);
             rows.push('\n');
         }
         if args.record.is_some() {

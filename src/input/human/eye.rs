@@ -13,6 +13,8 @@ impl Human {
             aim: self.aim,
             strength_m_s: self.strength_m_s,
             help: self.help,
+            look: self.camera.looking(self.is_bird),
+            overlay: self.overlay,
             ..HumanView::default()
         };
         match &self.stage {

@@ -16,6 +16,9 @@ fn the_section_says_what_is_asked_for() {
     let haptic = parse(text).unwrap().haptic.unwrap();
     assert_eq!(haptic.device, HapticDevice::Recorded("s.jsonl".into()));
     assert_eq!((haptic.core, haptic.priority, haptic.spin_us), (Some(1), Some(80), Some(50)));
+    assert!(
+        !haptic.overlay && parse("[haptic]\noverlay = true\n").unwrap().haptic.unwrap().overlay
+    );
     for name in [
         "auto",
         "simulated",
@@ -73,7 +76,7 @@ fn what_is_wrong_in_it_is_said_in_one_exact_line() {
     );
     check(
         "[haptic]\nforce = 9\n",
-        "force = 9: haptic has the keys device, core, priority, spin_us; remove this key",
+        "force = 9: haptic has the keys device, core, priority, spin_us, overlay; remove this key",
     );
 }
 
