@@ -41,6 +41,8 @@ pub struct Stage {
     /// Its table; all games share it.
     pub table: Arc<Table>,
     header: Header,
+    /// What other files are seen from.
+    folder: Option<PathBuf>,
 }
 
 impl Stage {
@@ -63,7 +65,8 @@ impl Stage {
             files,
             overrides: Overrides::default(),
         };
-        Ok(Stage { scene: loaded.scene.clone(), table: Arc::new(table), header })
+        let (scene, folder) = (loaded.scene.clone(), loaded.folder.clone());
+        Ok(Stage { scene, table: Arc::new(table), header, folder })
     }
 
     /// The scene of a recording.
@@ -78,7 +81,7 @@ impl Stage {
             text.ok_or_else(|| "the recording does not hold this file".to_string())
         })?;
         header.overrides.apply(&mut scene);
-        Ok(Stage { scene, table: Arc::new(table), header })
+        Ok(Stage { scene, table: Arc::new(table), header, folder: None })
     }
 
     /// The same for another game, if one is given.
@@ -105,7 +108,7 @@ impl Stage {
         let mut scene = self.scene.clone();
         overrides.apply(&mut scene);
         let header = Header { overrides, ..self.header.clone() };
-        Stage { scene, table: self.table.clone(), header }
+        Stage { scene, table: self.table.clone(), header, folder: self.folder.clone() }
     }
 
     /// The header of a recording of this game.
@@ -129,7 +132,7 @@ impl Stage {
     /// A device that is not built in, or balls that do not fit the table.
     pub fn haptic(&self) -> Result<Option<haptic::Plan>, Error> {
         let balls = self.scene.build_balls(&self.table)?;
-        Ok(haptic::plan(&self.scene, &self.table, &balls)?)
+        Ok(haptic::plan(&self.scene, self.folder.as_deref(), &self.table, &balls)?)
     }
 
     /// The cores of this game.

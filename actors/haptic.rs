@@ -9,28 +9,35 @@ mod body;
 mod clock;
 mod control;
 mod device;
+mod haply;
 mod keeper;
 pub mod openhaptics;
 mod ports;
 #[cfg(all(target_os = "linux", feature = "rtkit"))]
 mod realtime_kit;
+mod recording;
 mod rights;
 mod seat;
 mod stylus;
+mod telemetry;
 mod thread;
 mod timing;
 mod turns;
 
 pub use body::Body;
-pub use control::{Haptic, Look, Looked};
+pub use control::{Haptic, Look, Looked, allowed};
 pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list, open};
+pub use haply::NoHaply;
 pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
-    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, WorldPort,
+    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
+    Watch, WorldPort,
 };
+pub use recording::{DeviceRecorder, Recorded, load as load_recording};
 pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
+pub use telemetry::{Telemetry, Written};
 pub use thread::{NoServo, ServoThread};
 pub use timing::{Histogram, OVERRUN_NS, Timing};
 pub use turns::{Call, Called, Explain, Scheduler, Turns};
@@ -40,24 +47,26 @@ use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::cue::Aim;
 use hapticbillard::haptic::{EffectSet, HapticMesh, Reach, ReachSettings};
 use hapticbillard::ids::BallId;
-use hapticbillard::scene::Scene;
+use hapticbillard::scene::{HapticDevice, Scene};
 use hapticbillard::table::Table;
+use std::path::{Component, Path};
 use std::sync::Arc;
 
 /// The name of the actor in what the player is told.
 pub const HAPTIC: &str = "haptic";
 
-/// What `scene` asks to be felt; none if it asks for nothing.
+/// What `scene` asks to be felt; none if it asks for nothing. What it names is seen from `folder`.
 ///
 /// # Errors
-/// [`NoDevice`] if this build does not know the device.
+/// [`NoDevice`] if this build does not know the device, or it is not there.
 pub fn plan(
     scene: &Scene,
+    folder: Option<&Path>,
     table: &Table,
     balls: &[(Ball, BallState)],
 ) -> Result<Option<Plan>, NoDevice> {
     let Some(section) = &scene.haptic else { return Ok(None) };
-    let Some(opened) = open(&section.device)? else { return Ok(None) };
+    let Some(opened) = open(&seen_from(folder, &section.device)?)? else { return Ok(None) };
     let parameters = scene.parameters();
     let lay = scene.cue.is_some().then(|| Lay { settings: ReachSettings::default(), parameters });
     Ok(Some(Plan {
@@ -69,6 +78,20 @@ pub fn plan(
         lay,
         bodies: balls.iter().map(|(ball, _)| ball.clone()).collect(),
     }))
+}
+
+/// Scenes come from anywhere, so a recording must lie in the scene's own folder or below.
+fn seen_from(folder: Option<&Path>, device: &HapticDevice) -> Result<HapticDevice, NoDevice> {
+    let HapticDevice::Recorded(file) = device else { return Ok(device.clone()) };
+    let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    if !Path::new(file).components().all(inside) {
+        return Err(NoDevice::Recording {
+            path: file.into(),
+            problem: "a recording must lie in the scene's folder or below it".to_string(),
+        });
+    }
+    let path = folder.unwrap_or(Path::new("")).join(file);
+    Ok(HapticDevice::Recorded(path.to_string_lossy().into_owned()))
 }
 
 /// How far the workspace in front of a cue ball is lowered at first [rad]: the cue clears the rail.

@@ -7,7 +7,9 @@ use crate::kept::{Kept, Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::StateHash;
-use hapticbillard::input::{Human, HumanView, RawInput, StylusWord};
+use hapticbillard::input::{
+    Human, HumanView, Led, LedHuman, MouseSplit, RawInput, Reader, StylusWord,
+};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
 use hapticbillard::units::Tick;
@@ -92,8 +94,8 @@ pub struct WindowHand {
     view: triple_buffer::Input<HumanView>,
     buffer: Vec<RawInput>,
     stylus: Option<Stylus>,
-    /// The hand at the haptic device that the mouse moves.
-    felt: Option<FeltMouse>,
+    /// The hand at the haptic device that the mouse moves, and what of the mouse is for it.
+    felt: Option<(FeltMouse, MouseSplit)>,
 }
 
 impl WindowHand {
@@ -113,7 +115,8 @@ impl WindowHand {
         let core = self.core.get().clone().with_stylus();
         let core = if felt.is_some() { core.whose_mouse_is_the_stylus() } else { core };
         self.core = Saved::new(core);
-        (self.stylus, self.felt) = (Some(stylus), felt);
+        self.stylus = Some(stylus);
+        self.felt = felt.map(|felt| (felt, MouseSplit::default()));
         self
     }
 
@@ -129,8 +132,10 @@ impl FrameSource for WindowHand {
     fn inflow(&mut self, tick: Tick) -> Inflow {
         self.buffer.clear();
         self.buffer.extend(self.raw.try_iter());
-        if let Some(felt) = &mut self.felt {
-            self.buffer.iter().for_each(|report| felt.hear(report));
+        if let Some((felt, split)) = &mut self.felt {
+            let mode = self.core.get().view().mode;
+            let is_for_it = |report: &&RawInput| split.reader_in(mode, report) != Reader::Eye;
+            self.buffer.iter().filter(is_for_it).for_each(|report| felt.hear(report));
         }
         let word = self.word(tick);
         let buffer = &self.buffer;
@@ -147,6 +152,83 @@ impl FrameSource for WindowHand {
 }
 
 impl Participant for WindowHand {
+    fn source(&self) -> Source {
+        self.core.get().source()
+    }
+
+    fn topics(&self) -> Topics {
+        self.core.get().topics()
+    }
+
+    fn start(&mut self, table: &Snapshot) -> Outcome {
+        self.core.work(|core| core.start(table))
+    }
+
+    fn collect(&mut self, delivered: &Delivered) -> Outcome {
+        self.core.work(|core| core.collect(delivered))
+    }
+
+    fn hash(&self, hash: &mut StateHash) {
+        self.core.get().hash(hash);
+    }
+}
+
+/// A hand at a haptic device, in a window whose mouse may move it.
+pub struct LedHand {
+    core: Saved<LedHuman>,
+    raw: flume::Receiver<RawInput>,
+    view: triple_buffer::Input<HumanView>,
+    /// The hand that the mouse moves.
+    mouse: Option<FeltMouse>,
+    /// What strikes, where there is a cue.
+    stylus: Option<Stylus>,
+    buffer: Vec<RawInput>,
+}
+
+impl LedHand {
+    /// Joins the core with its window and its device.
+    pub fn new(
+        core: LedHuman,
+        raw: flume::Receiver<RawInput>,
+        view: triple_buffer::Input<HumanView>,
+        mouse: Option<FeltMouse>,
+        stylus: Option<Stylus>,
+    ) -> Self {
+        LedHand { core: Saved::new(core), raw, view, mouse, stylus, buffer: Vec::new() }
+    }
+}
+
+impl FrameSource for LedHand {
+    fn inflow(&mut self, tick: Tick) -> Inflow {
+        self.buffer.clear();
+        self.buffer.extend(self.raw.try_iter());
+        let buffer = &self.buffer;
+        let (led, hand) = self.core.work(|core| {
+            let mut hand = Vec::new();
+            (core.inflow(tick, buffer, &mut hand), hand)
+        });
+        let Led { mut inflow, strikes, begins } = led;
+        self.view.write(self.core.get().view());
+        if let Some(mouse) = &mut self.mouse {
+            hand.iter().for_each(|report| mouse.hear(report));
+            if begins {
+                mouse.go_home();
+            }
+        }
+        if let Some(stylus) = &mut self.stylus {
+            if inflow.paused {
+                stylus.rest();
+            } else {
+                // The samples flow in the turns of others too, so that none of them is old.
+                let moved = stylus.frame(tick);
+                inflow.frame.extend(moved.into_iter().filter(|_| strikes));
+            }
+        }
+        inflow
+    }
+}
+
+impl Participant for LedHand {
     fn source(&self) -> Source {
         self.core.get().source()
     }

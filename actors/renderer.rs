@@ -4,6 +4,8 @@
 //! ([`crate::event_manager::Sink`]), the world and the hand's view through slots, and what devices
 //! say goes out through a channel. What is drawn is decided by the core, `hapticbillard::renderer`.
 
+mod felt;
+
 mod hud;
 
 mod materials;
@@ -20,6 +22,7 @@ mod textures;
 
 mod window;
 
+pub use felt::FeltSetup;
 pub use offscreen::pixels;
 pub use textures::number_layer;
 pub use window::{NoWindow, Ports, WindowSetup, show};

@@ -4,6 +4,10 @@
 //! and of the newest [`HapticScene`]. Whoever has a clock calls it: a real-time thread, the
 //! callback of a vendor's library, or a test. It never allocates, locks, logs, blocks or panics.
 //!
+//! Behind the servo stands a [`Device`]: a simulated one, a recorded one ([`RecordedDevice`]), or a
+//! real one, whose messages are read here where they are text ([`Inverse3`]), and which others talk
+//! to.
+//!
 //! Two frames. The *device frame* has its origin in the middle of the workspace, x to the right, y
 //! up, z towards the user [m]; effects, devices and forces live in it. The *world* is the game's,
 //! z up; balls, table and tip live in it. The [`Reach`] says how one is laid into the other.
@@ -38,15 +42,28 @@ mod safety;
 
 pub mod simulated;
 
+mod recorded;
+mod recording;
+
+mod inverse3;
+
 mod rehearsal;
 
 pub mod telemetry;
 
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
+pub use inverse3::{Format, INVERSE3, Inverse3, Inverse3Trouble};
 pub use mesh::HapticMesh;
+pub use recorded::RecordedDevice;
+pub use recording::{
+    DeviceRecording, DeviceRecordingError, READINGS_MAX, Reading, RecordingProblem,
+    RecordingReader, RecordingWriter,
+};
 pub use rehearsal::Rehearsal;
-pub use report::{ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched};
+pub use report::{
+    ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
+};
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;
 pub use settings::{

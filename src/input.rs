@@ -8,7 +8,7 @@ mod raw;
 pub use raw::{Button, Key, RawInput};
 
 mod view;
-pub use view::{CameraPose, HumanMode, HumanView};
+pub use view::{CameraPose, HumanMode, HumanView, Look};
 
 pub mod feel;
 
@@ -17,6 +17,7 @@ mod held;
 mod camera;
 
 mod sight;
+pub(crate) use sight::ghost as first_met;
 
 mod placing;
 
@@ -30,3 +31,9 @@ pub use hand_over::StylusWord;
 
 mod human;
 pub use human::{Human, STYLUS};
+
+mod mouse_split;
+pub use mouse_split::{MouseSplit, Reader};
+
+mod led;
+pub use led::{Led, LedHuman};

@@ -18,10 +18,24 @@ mod hud;
 
 mod words;
 
-pub use draw_list::{BallInstance, DrawList, GhostBall, Line, Radii};
+mod felt;
+
+mod felt_aim;
+
+mod felt_eye;
+
+mod overlay;
+
+pub use draw_list::{
+    BallInstance, DrawList, GhostBall, Line, Radii, Solid, SolidShape, StylusPose,
+};
+pub use felt::{FeltLook, FeltTool, force_colour};
+pub use felt_aim::aimed_by_stylus;
+pub use felt_eye::FeltEye;
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, BallSet, ball_look};
+pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
-pub use shape::{Shape, cue_shape, sphere};
+pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
 pub use words::Words;

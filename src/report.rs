@@ -8,6 +8,7 @@ mod answers;
 mod case;
 mod catalogue;
 mod chaos;
+mod closed_loop;
 mod felt_wall;
 mod hop;
 mod idle;
@@ -21,6 +22,7 @@ mod trial;
 pub use case::{CaseBall, CaseStart, Ground, GroundPlane, Law, Part, Rub, SceneCase};
 pub use catalogue::{CATALOGUE, Norm, Scene, Until};
 pub use chaos::{Growth, Spread, growth, spread};
+pub use closed_loop::{LOOP_HANDS, LoopPoint, LoopRow, closed_loop, loop_points};
 pub use felt_wall::{FeltWall, RATES_HZ, SPEED_M_S, STIFFNESS_N_M, felt_wall};
 pub use hop::{Form, Hop, hop, solver_hop};
 pub use idle::{Idle, idle};
@@ -30,7 +32,7 @@ pub use method::{
 pub use order::{computations, fitted_order, on_the_front, orders};
 pub use peers::{PeerRow, PeerStatus, Peers, PeersError, Program, cheaper_and_better};
 pub use stability::{
-    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, WallRow,
-    hertz_rows, rest_rows, spring_cell, spring_limit, wall_rows,
+    CASES, COLUMNS, Case, Cell, Class, HertzRow, Limit, RATIOS, RestRow, STIFFNESSES, hertz_rows,
+    rest_rows, spring_cell, spring_limit,
 };
 pub use trial::{Failure, Patience, Prepared, Row, Status, Track, judge, left_out};

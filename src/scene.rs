@@ -332,6 +332,8 @@ pub struct HapticSection {
     pub priority: Option<u32>,
     /// How long before a deadline it stops sleeping and spins [µs].
     pub spin_us: Option<u32>,
+    /// The window begins with the panel of numbers.
+    pub overlay: bool,
 }
 
 /// A haptic device, as scenes name it.
@@ -348,8 +350,8 @@ pub enum HapticDevice {
     /// A device of the OpenHaptics library, such as the PHANTOM Omni: the one of this name there,
     /// or the library's own choice.
     OpenHaptics(Option<String>),
-    /// A Haply Inverse3 at its service.
-    Haply,
+    /// A Haply Inverse3 at its service: the one at this `HOST:PORT`, or on this machine.
+    Haply(Option<String>),
     /// None, although the scene could be felt.
     None,
 }
@@ -361,7 +363,7 @@ impl HapticDevice {
         HapticDevice::Simulated,
         HapticDevice::Mouse,
         HapticDevice::OpenHaptics(None),
-        HapticDevice::Haply,
+        HapticDevice::Haply(None),
         HapticDevice::None,
     ];
 
@@ -371,6 +373,12 @@ impl HapticDevice {
             Some((_, "")) => None,
             Some(("recorded", file)) => Some(HapticDevice::Recorded(file.into())),
             Some(("openhaptics", name)) => Some(HapticDevice::OpenHaptics(Some(name.into()))),
+            Some(("haply", address)) => {
+                let (host, port) = address.rsplit_once(':')?;
+                let is_port = port.parse::<u16>().is_ok_and(|port| port > 0);
+                let is_address = !host.is_empty() && is_port;
+                is_address.then(|| HapticDevice::Haply(Some(address.into())))
+            }
             _ => HapticDevice::PLAIN.into_iter().find(|device| device.name() == text),
         }
     }
@@ -384,7 +392,8 @@ impl HapticDevice {
             HapticDevice::Recorded(file) => format!("recorded:{file}"),
             HapticDevice::OpenHaptics(None) => "openhaptics".into(),
             HapticDevice::OpenHaptics(Some(name)) => format!("openhaptics:{name}"),
-            HapticDevice::Haply => "haply".into(),
+            HapticDevice::Haply(None) => "haply".into(),
+            HapticDevice::Haply(Some(address)) => format!("haply:{address}"),
             HapticDevice::None => "none".into(),
         }
     }

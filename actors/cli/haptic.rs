@@ -2,6 +2,7 @@
 
 pub mod check;
 mod devices;
+mod load;
 mod simulate;
 
 use super::Status;

@@ -1,6 +1,8 @@
 //! `hapticbillard [play]`: the game.
 
 #[cfg(feature = "renderer")]
+mod felt;
+#[cfg(feature = "renderer")]
 mod in_window;
 
 use super::{Driver, Status, positive};
@@ -29,7 +31,9 @@ Examples:
   hapticbillard                              the same as: hapticbillard play --scene eight_ball
   hapticbillard play --scene training
   hapticbillard play --game wpa-eight-ball
-  hapticbillard play --seed 3 --record game.jsonl";
+  hapticbillard play --seed 3 --record game.jsonl
+  hapticbillard play --scene haptic_touch --record-device hand.jsonl
+  hapticbillard play --scene haptic_touch --telemetry touch.csv";
 
 /// Plays a game in a window.
 #[derive(Debug, Clone, Args)]
@@ -54,6 +58,14 @@ pub struct PlayArgs {
     /// Records nothing.
     #[arg(long)]
     pub no_record: bool,
+
+    /// Records what the haptic device says into this file, as JSON lines.
+    #[arg(long, value_name = "FILE")]
+    pub record_device: Option<PathBuf>,
+
+    /// Writes every tick of the haptic device's servo into this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    pub telemetry: Option<PathBuf>,
 
     /// The runtime of a game without a window.
     #[arg(long, value_enum, default_value_t)]
@@ -120,8 +132,8 @@ fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
     }
 }
 
-/// Ends the game in order when somebody presses Ctrl-C.
-fn stop_at_interrupt() -> StopFlag {
+/// Ends a game, or whatever looks at the flag, in order when somebody presses Ctrl-C.
+pub fn stop_at_interrupt() -> StopFlag {
     // One handler for the whole program: who gets no window plays another game without one.
     static STOP: OnceLock<StopFlag> = OnceLock::new();
     let stop = STOP.get_or_init(|| {
@@ -142,6 +154,14 @@ fn play_without_window(
     stage: &Stage,
     out: &mut dyn Write,
 ) -> Result<Status, Error> {
+    if args.record_device.is_some() {
+        let problem = "a game without a window has no haptic device";
+        return Err(Error::input("--record-device", problem, "leave it out"));
+    }
+    if args.telemetry.is_some() {
+        let problem = "without a window no haptic device is felt";
+        return Err(Error::input("--telemetry", problem, "play a scene with [haptic] in a window"));
+    }
     let record = recording(args);
     let names: Vec<String> = stage.scene.players.iter().map(|player| player.name.clone()).collect();
     let how = Headless {

@@ -2,6 +2,8 @@
 
 mod cases;
 
+mod closed_loop;
+
 mod csv;
 
 mod figure;
@@ -87,6 +89,7 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let bar = progress(stability::length(), "cells");
     let table = stability::measure(args.quick, &bar)?;
     bar.finish_and_clear();
+    let loops = closed_loop::measure();
     let idle = left_out::measure()?;
     let players = players::measure(if args.quick { 4 } else { 40 })?;
 
@@ -97,7 +100,9 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
         write(&figure::name(scene), &figure::scene(scene, peers)?)?;
     }
     write(figure::CHAOS, &figure::growth(&table.growth)?)?;
-    write("REPORT.md", &page::page(&measured, peers, &table, &idle, &players, args.quick))?;
+    write("closed_loop.csv", &closed_loop::csv(&loops))?;
+    write(closed_loop::FIGURE, &closed_loop::draw(&loops)?)?;
+    write("REPORT.md", &page::page(&measured, peers, &table, &loops, &idle, &players, args.quick))?;
     print(args, &measured, out)
 }
 

@@ -1,7 +1,7 @@
 //! The body of the servo's loop: one reading, one tick, one force. It needs no thread and no clock,
 //! and never allocates, locks, logs or waits.
 
-use super::ports::{ButtonEdge, Orders, ServoPorts};
+use super::ports::{ButtonEdge, Orders, ServoPorts, TickTold};
 use hapticbillard::haptic::{
     Buttons, Device, Force, HapticScene, Servo, ServoReport, StylusSample,
 };
@@ -21,6 +21,8 @@ pub struct Body {
     held: Buttons,
     /// Of the newest balls.
     serial: u64,
+    /// Of this turn [ns].
+    late_ns: u64,
 }
 
 impl Body {
@@ -37,6 +39,7 @@ impl Body {
             stiffness_wanted_n_m: stiffness_max_n_m,
             held: Buttons::default(),
             serial: 0,
+            late_ns: 0,
         }
     }
 
@@ -55,6 +58,11 @@ impl Body {
         self.device.write(Force::ZERO);
     }
 
+    /// The next turn begins `late_ns` after its deadline; whoever keeps no deadlines says nothing.
+    pub fn begin_late(&mut self, late_ns: u64) {
+        self.late_ns = late_ns;
+    }
+
     /// One turn of the loop, `dt` after the last one [s].
     pub fn turn(&mut self, dt: Seconds) -> &ServoReport {
         self.hear(dt);
@@ -65,6 +73,7 @@ impl Body {
         self.tell_buttons(state.buttons, report.counters.ticks);
         self.tell_sample(report.sample);
         self.ports.report.write(report);
+        self.tell_watchers(report);
         self.servo.report()
     }
 
@@ -104,6 +113,18 @@ impl Body {
                     self.ports.timing.lose_button();
                 }
             }
+        }
+    }
+
+    fn tell_watchers(&mut self, report: ServoReport) {
+        if let Some(picture) = &mut self.ports.picture {
+            picture.write(report);
+        }
+        let told = TickTold { report, late_ns: self.late_ns };
+        if let Some(telemetry) = &mut self.ports.telemetry
+            && telemetry.push(told).is_err()
+        {
+            self.ports.timing.lose_row();
         }
     }
 

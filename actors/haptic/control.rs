@@ -2,7 +2,6 @@
 
 use super::HAPTIC;
 use super::seat::{Held, Seat};
-use super::timing::Timing;
 use glam::DVec2;
 use hapticbillard::ball::BallPlace;
 use hapticbillard::cue::Aim;
@@ -75,7 +74,7 @@ impl Haptic {
     fn adapt(&mut self) {
         let seat = self.held.seat().clone();
         let orders = *self.held.orders();
-        let stiffness_max_n_m = allowed(&seat, seat.timing());
+        let stiffness_max_n_m = allowed(&seat);
         let change = (stiffness_max_n_m - orders.stiffness_max_n_m).abs();
         if change > CLOSE * orders.stiffness_max_n_m {
             self.held.order(super::Orders { stiffness_max_n_m, ..orders });
@@ -141,11 +140,12 @@ impl Haptic {
     }
 }
 
-/// The greatest stiffness that the lateness allows [N/m].
-fn allowed(seat: &Seat, timing: &Timing) -> f64 {
+/// The greatest stiffness that the lateness of servo and device allows [N/m].
+pub fn allowed(seat: &Seat) -> f64 {
+    let timing = seat.timing();
     let late_s = match timing.ticks() {
         ticks if ticks < TICKS_MIN => 0.0,
         _ => timing.lateness.quantile(SHARE) as f64 * 1e-9,
     };
-    stiffness_for(seat.spec(), late_s)
+    stiffness_for(seat.spec(), late_s + seat.device_late_s())
 }

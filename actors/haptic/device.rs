@@ -1,17 +1,23 @@
 //! Which devices there are, and how they are opened.
 
+use super::haply::{self, NoHaply};
 use super::openhaptics::{self, NoOpenHaptics};
+use super::recording;
 use super::turns::{Explain, Scheduler};
 use glam::DVec3;
 use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
 };
-use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force};
+use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force, RecordedDevice};
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
+/// Where the hand of a mouse begins [m]: in front of what there is to touch.
+const MOUSE_START_M: DVec3 = DVec3::new(0.0, 0.0, 0.033);
 /// Reports of a mouse that wait at most.
 const MOVES: usize = 256;
 
@@ -22,9 +28,7 @@ pub struct Listed {
     pub name: &'static str,
     /// In words.
     pub about: &'static str,
-    /// Whether this build knows it.
-    pub is_built_in: bool,
-    /// What it is, in units; none: there is none.
+    /// What it is, in units; none: there is none, or any.
     pub spec: Option<DeviceSpec>,
     /// What it says of itself, or why it is not there.
     pub says: Option<String>,
@@ -32,42 +36,53 @@ pub struct Listed {
 
 /// All kinds that a scene can name. Those that can be there or not are asked.
 pub fn list() -> [Listed; 5] {
-    let simulated = |name, about| {
-        let spec = Some(DeviceSpec::OMNI);
-        Listed { name, about, is_built_in: true, spec, says: None }
-    };
-    let missing = |name, about| Listed { name, about, is_built_in: false, spec: None, says: None };
-    let (spec, says) = match openhaptics::look(openhaptics::named().as_deref(), None) {
+    let simulated = |name, about| Listed { name, about, spec: Some(DeviceSpec::OMNI), says: None };
+    let (omni, omni_says) = match openhaptics::look(openhaptics::named().as_deref(), None) {
         Ok(seen) => (Some(seen.spec), seen.about),
+        Err(error) => (None, error.to_string()),
+    };
+    let (inverse3, inverse3_says) = match haply::open(haply::ADDRESS, TRIED) {
+        Ok(opened) => (Some(opened.device.spec()), format!("its service is at {}", haply::ADDRESS)),
         Err(error) => (None, error.to_string()),
     };
     [
         simulated("simulated", "a simulated device in a simulated hand"),
         simulated("mouse", "a simulated device; a mouse moves the hand"),
-        missing("recorded:FILE", "a recording of a device"),
+        Listed {
+            name: "recorded:FILE",
+            about: "a recording of a device",
+            spec: None,
+            says: Some("what `haptic check --record FILE` wrote".to_string()),
+        },
         Listed {
             name: "openhaptics",
             about: "SensAble and 3D Systems, by OpenHaptics",
-            is_built_in: true,
-            spec,
-            says: Some(says),
+            spec: omni,
+            says: Some(omni_says),
         },
-        missing("haply", "Haply Inverse3, at its service"),
+        Listed {
+            name: "haply",
+            about: "Haply Inverse3, at its service",
+            spec: inverse3,
+            says: Some(inverse3_says),
+        },
     ]
 }
 
 /// Why there is no device.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NoDevice {
-    /// It is not built in.
-    #[error(
-        "the haptic device '{name}' is not built in; write device = \"simulated\" or \"mouse\" in \
-         [haptic], or \"none\""
-    )]
-    NotBuiltIn {
-        /// What was asked for.
-        name: String,
+    /// A recording cannot be replayed.
+    #[error("{}: {problem}", path.display())]
+    Recording {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, and where.
+        problem: String,
     },
+    /// There is no Inverse3.
+    #[error(transparent)]
+    Haply(#[from] NoHaply),
     /// OpenHaptics does not give it.
     #[error(transparent)]
     OpenHaptics(#[from] NoOpenHaptics),
@@ -92,12 +107,16 @@ impl Opened {
     }
 }
 
-/// Opens the device that a scene names; none where it wants none.
+/// How long a service may take to answer that somebody wants, and one that is only tried.
+const WANTED: Duration = Duration::from_secs(2);
+const TRIED: Duration = Duration::from_millis(300);
+
+/// Opens the device that a scene names; none where it wants none. A recording is sought from the
+/// working folder.
 ///
 /// # Errors
 /// [`NoDevice`] if this build does not know it, or it is not there.
 pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
-    let spec = DeviceSpec::OMNI;
     match wanted {
         HapticDevice::None => Ok(None),
         HapticDevice::Auto => Ok(Some(first_there().unwrap_or_else(simulated))),
@@ -107,14 +126,20 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             Ok(Some(openhaptics::open(library.as_deref(), name.as_deref())?))
         }
         HapticDevice::Mouse => {
-            let guide = Guide::Mouse(MouseHand::new(MouseFeel::default()));
-            let device = SimulatedDevice::new(spec, HandModel::GRIP, guide);
+            let hand = MouseHand::new(MouseFeel::default()).starting_at(MOUSE_START_M);
+            let guide = Guide::Mouse(hand);
+            let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::MOUSE, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
             Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
         }
-        HapticDevice::Recorded(_) | HapticDevice::Haply => {
-            Err(NoDevice::NotBuiltIn { name: wanted.name() })
+        HapticDevice::Recorded(file) => {
+            let recording = recording::load(Path::new(file))?;
+            Ok(Some(Opened::new(RecordedDevice::new(Arc::new(recording)))))
+        }
+        HapticDevice::Haply(address) => {
+            let address = address.as_deref().unwrap_or(haply::ADDRESS);
+            Ok(Some(haply::open(address, WANTED)?))
         }
     }
 }
@@ -125,17 +150,20 @@ fn simulated() -> Opened {
     Opened::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide))
 }
 
-/// The first real device that is there. Who has no vendor's library has no device, and need not be
-/// told.
+/// The first real device that is there. Who has no vendor's library and no service has no device,
+/// and need not be told.
 fn first_there() -> Option<Opened> {
     match openhaptics::open(openhaptics::named().as_deref(), None) {
-        Ok(opened) => Some(opened),
-        Err(NoOpenHaptics::NoLibrary { .. }) => None,
-        Err(error) => {
-            log::warn!("{error}");
-            None
-        }
+        Ok(opened) => return Some(opened),
+        Err(NoOpenHaptics::NoLibrary { .. }) => {}
+        Err(error) => log::warn!("{error}"),
     }
+    match haply::open(haply::ADDRESS, TRIED) {
+        Ok(opened) => return Some(opened),
+        Err(NoHaply::Unreachable { .. }) => {}
+        Err(error) => log::warn!("{error}"),
+    }
+    None
 }
 
 /// How long the hand without a person goes from place to place [s], and how often.
@@ -168,6 +196,10 @@ pub enum MouseMove {
     Wheel(f64),
     /// These buttons are held now.
     Held(Buttons),
+    /// The hand draws back in depth to where it began, once the finger has let go.
+    DrawBack,
+    /// The hand goes back to where it began.
+    Home,
 }
 
 /// The way from a mouse into the hand.
@@ -186,12 +218,25 @@ impl MousePort {
 pub struct FeltMouse {
     port: MousePort,
     held: Buttons,
+    /// After a stroke the hand draws back by itself.
+    draws_back: bool,
 }
 
 impl FeltMouse {
     /// A mouse without a button held.
     pub fn new(port: MousePort) -> Self {
-        FeltMouse { port, held: Buttons::default() }
+        FeltMouse { port, held: Buttons::default(), draws_back: false }
+    }
+
+    /// The same of somebody who strikes: after each stroke the hand draws back by itself.
+    #[must_use]
+    pub fn striking(self) -> Self {
+        FeltMouse { draws_back: true, ..self }
+    }
+
+    /// The hand goes back to where it began.
+    pub fn go_home(&mut self) {
+        let _ = self.port.say(MouseMove::Home);
     }
 
     /// Takes a report.
@@ -216,6 +261,10 @@ impl FeltMouse {
         };
         // A full ring loses movements; whatever is held is said again with the next button.
         let _ = self.port.say(heard);
+        let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
+        if is_let_go && self.draws_back {
+            let _ = self.port.say(MouseMove::DrawBack);
+        }
     }
 }
 
@@ -237,6 +286,8 @@ impl Device for MouseDevice {
                     MouseMove::Moved { right, up } => hand.moved(right, up),
                     MouseMove::Wheel(notches) => hand.wheel(notches),
                     MouseMove::Held(buttons) => hand.hold(buttons),
+                    MouseMove::DrawBack => hand.draw_back(),
+                    MouseMove::Home => hand.go_home(),
                 }
             }
         }
@@ -262,7 +313,7 @@ mod tests {
         let state = (0..2000).map(|_| device.read(0.001)).last().unwrap();
         // A quarter and an eighth of 160 mm, up to the device's dry friction against the hand.
         assert!((state.position.x - 0.04).abs() < 0.01, "{state:?}");
-        assert!((state.position.z + 0.02).abs() < 0.01, "{state:?}");
+        assert!((state.position.z - (0.033 - 0.02)).abs() < 0.01, "{state:?}");
         assert!(state.position.y.abs() < 0.01 && state.buttons == Buttons::FRONT, "{state:?}");
     }
 
@@ -277,12 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_listed_without_a_specification_is_refused() {
-        let device = HapticDevice::Haply;
-        let listed = list().into_iter().find(|listed| listed.name == device.name()).unwrap();
-        assert!(listed.spec.is_none() && !listed.is_built_in);
-        let error = open(&device).err().unwrap().to_string();
-        assert!(error.contains(listed.name) && error.contains("not built in"), "{error}");
+    fn what_needs_no_hardware_can_be_opened() {
         assert!(open(&HapticDevice::None).unwrap().is_none());
         assert!(open(&HapticDevice::Auto).unwrap().is_some());
     }

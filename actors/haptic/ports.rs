@@ -9,6 +9,8 @@
 //! | report out | everything about the last tick | the newest counts |
 //! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
 //! | edges out | every press and release, in order | the same; a sample tells what is held |
+//! | picture out | the same as the report, for a window | the newest counts |
+//! | telemetry out | everything about every tick | the oldest stay, loss is counted |
 
 use super::timing::Timing;
 use glam::DVec2;
@@ -132,6 +134,26 @@ pub struct ButtonEdge {
     pub down: bool,
 }
 
+/// A tick as telemetry has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TickTold {
+    /// Everything about it.
+    pub report: ServoReport,
+    /// From its deadline to its begin [ns]; 0 if somebody else keeps the time.
+    pub late_ns: u64,
+}
+
+/// The servo's ends of what only looks on. What is not there costs nothing.
+#[derive(Default)]
+pub struct Watch {
+    /// The newest tick, for a picture.
+    pub picture: Option<triple_buffer::Input<ServoReport>>,
+    /// Every tick, for a file.
+    pub telemetry: Option<rtrb::Producer<TickTold>>,
+    /// Where punctuality is counted.
+    pub timing: Arc<Timing>,
+}
+
 /// The servo's end.
 pub struct ServoPorts {
     pub(super) orders: triple_buffer::Output<Orders>,
@@ -140,6 +162,8 @@ pub struct ServoPorts {
     pub(super) report: triple_buffer::Input<ServoReport>,
     pub(super) samples: rtrb::Producer<StylusSample>,
     pub(super) buttons: rtrb::Producer<ButtonEdge>,
+    pub(super) picture: Option<triple_buffer::Input<ServoReport>>,
+    pub(super) telemetry: Option<rtrb::Producer<TickTold>>,
     pub(super) timing: Arc<Timing>,
 }
 
@@ -207,7 +231,13 @@ pub struct AllPorts {
 
 impl AllPorts {
     /// Slots and rings between a servo and a world with these balls.
-    pub fn new(orders: Orders, mut bodies: Vec<Ball>) -> Self {
+    pub fn new(orders: Orders, bodies: Vec<Ball>) -> Self {
+        AllPorts::watched(orders, bodies, Watch::default())
+    }
+
+    /// The same while somebody looks on.
+    pub fn watched(orders: Orders, mut bodies: Vec<Ball>, watch: Watch) -> Self {
+        let Watch { picture, telemetry, timing } = watch;
         bodies.sort_by_key(|ball| ball.id);
         let (orders_in, orders_out) = triple_buffer::triple_buffer(&orders);
         let (balls_in, balls_out) = triple_buffer::triple_buffer(&Balls::default());
@@ -215,7 +245,6 @@ impl AllPorts {
         let (samples_in, samples_out) = rtrb::RingBuffer::new(SAMPLES);
         let (edges_in, edges_out) = rtrb::RingBuffer::new(EDGES);
         let signs = Arc::new(Signs::default());
-        let timing = Arc::new(Timing::default());
         AllPorts {
             servo: ServoPorts {
                 orders: orders_out,
@@ -224,6 +253,8 @@ impl AllPorts {
                 report: report_in,
                 samples: samples_in,
                 buttons: edges_in,
+                picture,
+                telemetry,
                 timing: timing.clone(),
             },
             control: ControlPorts { orders: orders_in, report: report_out, timing },

@@ -3,7 +3,7 @@
 //! control that is gone, for whatever reason, has let go of it.
 
 use super::body::Body;
-use super::ports::{ControlPorts, Signs, StylusPorts, WorldPort};
+use super::ports::{ControlPorts, Signs, StylusPorts, Watch, WorldPort};
 use super::rights::{Asked, Obtained, Refusal};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
@@ -19,6 +19,7 @@ use hapticbillard::haptic::{
 };
 use hapticbillard::physics::Parameters;
 use hapticbillard::tick::Delivered;
+use hapticbillard::units::Seconds;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a servo is made of.
@@ -87,6 +88,14 @@ impl Seat {
     /// # Errors
     /// [`NoServo`] if there is no thread, or the device's own scheduler does not start.
     pub fn start(plan: Plan) -> Result<Started, NoServo> {
+        Seat::start_watched(plan, Watch::default())
+    }
+
+    /// The same while somebody looks on.
+    ///
+    /// # Errors
+    /// [`NoServo`] if there is no thread, or the device's own scheduler does not start.
+    pub fn start_watched(plan: Plan, watch: Watch) -> Result<Started, NoServo> {
         let Plan { opened, asked, mesh, effects, reach, lay, bodies } = plan;
         let Opened { device, scheduler, explains, .. } = opened;
         let spec = device.spec();
@@ -96,7 +105,8 @@ impl Seat {
             None => servo,
         };
         let orders = Orders { effects, reach, stiffness_max_n_m: stiffness_for(&spec, 0.0) };
-        let AllPorts { servo: ports, control, stylus, world, .. } = AllPorts::new(orders, bodies);
+        let AllPorts { servo: ports, control, stylus, world, .. } =
+            AllPorts::watched(orders, bodies, watch);
         let (timing, signs) = (ports.timing.clone(), ports.signs.clone());
         let body = Body::new(device, servo, ports);
         let turns: Box<dyn Turns> = match scheduler {
@@ -142,6 +152,11 @@ impl Seat {
     pub fn why(&self) -> Option<String> {
         let device = self.explains.as_ref().and_then(|explains| explains.why());
         device.or_else(|| self.turns.why())
+    }
+
+    /// How much later its device's forces act than its specification says [s].
+    pub fn device_late_s(&self) -> Seconds {
+        self.explains.as_ref().map_or(0.0, |explains| explains.late_s())
     }
 
     /// The device.

@@ -96,6 +96,7 @@ fn turn(mut body: Body, stop: &AtomicBool, spin_us: u32) {
         let dt = woke_ns.saturating_sub(last_ns) as f64 * 1e-9;
         last_ns = woke_ns;
         let before = thread_cpu_time();
+        body.begin_late(late_ns);
         body.turn(dt);
         let work = thread_cpu_time().saturating_sub(before);
         timing.note(late_ns, work, deadlines.go_on(now_ns()));

@@ -94,6 +94,7 @@ pub struct Timing {
     overruns: AtomicU64,
     lost_samples: AtomicU64,
     lost_buttons: AtomicU64,
+    lost_rows: AtomicU64,
 }
 
 impl Timing {
@@ -110,6 +111,11 @@ impl Timing {
     /// A sample found its ring full.
     pub fn lose_sample(&self) {
         add(&self.lost_samples, 1);
+    }
+
+    /// A row of telemetry found its ring full.
+    pub fn lose_row(&self) {
+        add(&self.lost_rows, 1);
     }
 
     /// A button found its ring full.
@@ -140,6 +146,11 @@ impl Timing {
     /// Samples that nobody took in time.
     pub fn lost_samples(&self) -> u64 {
         self.lost_samples.load(Ordering::Relaxed)
+    }
+
+    /// Rows of telemetry that nobody took in time.
+    pub fn lost_rows(&self) -> u64 {
+        self.lost_rows.load(Ordering::Relaxed)
     }
 
     /// Button edges that nobody took in time.

@@ -7,6 +7,7 @@ use super::rights::{Obtained, Refusal};
 use super::thread::NoServo;
 use super::timing::Timing;
 use crate::cpu_time::thread_cpu_time;
+use hapticbillard::units::Seconds;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -43,6 +44,12 @@ pub trait Scheduler: Send {
 pub trait Explain: Send + Sync {
     /// Why, and what to do; none if nothing is wrong.
     fn why(&self) -> Option<String>;
+
+    /// How much later its forces act than its specification says [s]: a part of the servo's
+    /// lateness.
+    fn late_s(&self) -> Seconds {
+        0.0
+    }
 }
 
 /// A body that somebody else's clock turns.

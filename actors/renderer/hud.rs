@@ -1,7 +1,9 @@
 //! The head-up display in pixels: what the core wrote, laid out for the size of the window.
 
 use hapticbillard::ids::BallId;
-use hapticbillard::renderer::{Gauge, Hud, Remaining, SeatPanel, TipDial, ball_look};
+use hapticbillard::renderer::{
+    FeltPanel, Gauge, Hud, Remaining, SeatPanel, TipDial, ball_look, force_colour,
+};
 use three_d::egui::{
     Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2,
 };
@@ -27,6 +29,9 @@ pub fn paint(painter: &Painter, hud: &Hud) {
     }
     if let Some(gauge) = &hud.strength {
         pen.strength(gauge);
+    }
+    if let Some(panel) = &hud.felt {
+        pen.felt(panel, if hud.seats.is_empty() { 14.0 } else { 98.0 });
     }
     if let Some((title, rows)) = &hud.help {
         pen.help(title, rows);
@@ -231,6 +236,49 @@ impl Pen<'_> {
         self.painter.rect_filled(full, 3.0 * self.unit, colour);
         let at = rect.center_top() - vec2(0.0, 8.0 * self.unit);
         self.text(at, Align2::CENTER_BOTTOM, &gauge.text, 15.0, TEXT);
+    }
+
+    /// The numbers of a haptic device, so far below the top.
+    fn felt(&self, panel: &FeltPanel, top: f32) {
+        let (row, pad) = (19.0 * self.unit, 12.0 * self.unit);
+        let width = 350.0 * self.unit;
+        let text_width = width - 2.0 * pad;
+        let colour = if panel.is_acting { FOUL } else { FAINT };
+        let acting: Vec<_> = panel
+            .acting
+            .iter()
+            .map(|text| self.painter.layout(text.clone(), self.font(13.5), colour, text_width))
+            .collect();
+        let said: f32 = acting.iter().map(|galley| galley.size().y).sum();
+        let gauge = if panel.force.is_some() { 14.0 * self.unit } else { 0.0 };
+        let rows = row * (panel.rows.len() as f32 + 1.4);
+        let size = vec2(width, rows + gauge + said + 2.0 * pad);
+        let corner = self.screen.left_top() + vec2(14.0, top) * self.unit;
+        self.panel(Rect::from_min_size(corner, size));
+        let left = corner.x + pad;
+        let mut y = corner.y + pad;
+        self.text(pos2(left, y), Align2::LEFT_TOP, &panel.title, 15.5, ACTIVE);
+        y += 1.4 * row;
+        for (name, value) in &panel.rows {
+            self.text(pos2(left, y), Align2::LEFT_TOP, name, 13.5, FAINT);
+            let at = pos2(left + 112.0 * self.unit, y);
+            self.text(at, Align2::LEFT_TOP, value, 13.5, TEXT);
+            y += row;
+        }
+        if let Some(force) = &panel.force {
+            let bar =
+                Rect::from_min_size(pos2(left, y + self.unit), vec2(text_width, 6.0 * self.unit));
+            self.painter.rect_filled(bar, 2.0 * self.unit, Color32::from_gray(45));
+            let [r, g, b] = force_colour(force.fill).map(|channel| (channel * 255.0) as u8);
+            let filled = bar.with_max_x(bar.left() + bar.width() * force.fill as f32);
+            self.painter.rect_filled(filled, 2.0 * self.unit, Color32::from_rgb(r, g, b));
+        }
+        y += gauge;
+        for galley in acting {
+            let height = galley.size().y;
+            self.painter.galley(pos2(left, y), galley, colour);
+            y += height;
+        }
     }
 
     fn banner(&self, title: &str, hint: &str) {

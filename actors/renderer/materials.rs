@@ -22,6 +22,8 @@ pub enum Shader {
     Painted,
     /// Lines and see-through balls.
     Plain,
+    /// The same, shining through what lies before it.
+    Over,
 }
 
 impl Shader {
@@ -31,6 +33,7 @@ impl Shader {
             Shader::Shadow => 2,
             Shader::Painted => 3,
             Shader::Plain => 4,
+            Shader::Over => 5,
             Shader::Surface(kind) => 0x100 + kind,
         }
     }
@@ -40,7 +43,7 @@ impl Shader {
             Shader::Ball => format!("{LIGHT}{BALL}"),
             Shader::Shadow => format!("{LIGHT}{SHADOW}"),
             Shader::Painted => format!("{LIGHT}{PAINTED}"),
-            Shader::Plain => format!("{LIGHT}{PLAIN}"),
+            Shader::Plain | Shader::Over => format!("{LIGHT}{PLAIN}"),
             Shader::Surface(kind) => format!("#define KIND {kind}\n{LIGHT}{SURFACE}"),
         }
     }
@@ -50,11 +53,11 @@ impl Shader {
             Shader::Surface(_) | Shader::Ball | Shader::Painted => {
                 RenderStates { cull: Cull::Back, ..RenderStates::default() }
             }
-            Shader::Shadow | Shader::Plain => RenderStates {
+            Shader::Shadow | Shader::Plain | Shader::Over => RenderStates {
                 write_mask: WriteMask::COLOR,
                 blend: Blend::TRANSPARENCY,
                 cull: Cull::Back,
-                ..RenderStates::default()
+                depth_test: if self == Shader::Over { DepthTest::Always } else { DepthTest::Less },
             },
         }
     }
@@ -91,7 +94,7 @@ impl Material for Told<'_> {
 
     fn material_type(&self) -> MaterialType {
         match self.shader {
-            Shader::Shadow | Shader::Plain => MaterialType::Transparent,
+            Shader::Shadow | Shader::Plain | Shader::Over => MaterialType::Transparent,
             Shader::Surface(_) | Shader::Ball | Shader::Painted => MaterialType::Opaque,
         }
     }

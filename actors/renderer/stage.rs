@@ -8,8 +8,10 @@ use hapticbillard::cue::CuePose;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::CameraPose;
 use hapticbillard::mesh::Surface;
-use hapticbillard::renderer::{BallInstance, DrawList, GhostBall, Line, Shape, ball_look};
-use hapticbillard::renderer::{cue_shape, sphere};
+use hapticbillard::renderer::{
+    BallInstance, DrawList, GhostBall, Line, Shape, Solid, SolidShape, StylusPose,
+};
+use hapticbillard::renderer::{ball_look, cone, cue_shape, cylinder, sphere, stylus_shape};
 use hapticbillard::table::{ClothMarks, DisplayPart, Material as Made, Table};
 use three_d::*;
 
@@ -31,6 +33,9 @@ pub struct Stage {
     ball: Mesh,
     cue: Mesh,
     square: Mesh,
+    stylus: Mesh,
+    cylinder: Mesh,
+    cone: Mesh,
     digits: Texture2DArray,
     nap: Texture2D,
     wood: Texture2D,
@@ -78,6 +83,9 @@ impl Stage {
             ball: Mesh::new(context, &shape_mesh(&sphere(BALL_LEVEL))),
             cue: Mesh::new(context, &shape_mesh(&cue_shape())),
             square: Mesh::new(context, &square()),
+            stylus: Mesh::new(context, &shape_mesh(&stylus_shape())),
+            cylinder: Mesh::new(context, &shape_mesh(&cylinder())),
+            cone: Mesh::new(context, &shape_mesh(&cone())),
             digits: textures::digits(context),
             nap: textures::nap(context),
             wood: textures::wood(context),
@@ -98,6 +106,9 @@ impl Stage {
         }
         if let Some(cue) = &list.cue {
             self.cue(cue, &camera);
+        }
+        if let Some(stylus) = &list.stylus {
+            self.stylus(stylus, &camera);
         }
         for (shader, mesh) in &self.parts {
             let is_cloth = matches!(shader, Shader::Surface(0 | 1));
@@ -124,6 +135,9 @@ impl Stage {
         for ghost in &list.ghosts {
             self.shadow(ghost.position, ghost.radius_m, &camera);
             self.ghost(ghost, &camera);
+        }
+        for solid in &list.solids {
+            self.solid(solid, &camera);
         }
     }
 
@@ -154,19 +168,44 @@ impl Stage {
     }
 
     fn cue(&mut self, cue: &CuePose, camera: &Camera) {
-        let along = cue.direction.as_vec3();
-        let along = vec3(along.x, along.y, along.z);
-        let side = vec3(0.0, 0.0, 1.0).cross(along);
-        let side = if side.magnitude2() < 1e-6 { vec3(0.0, 1.0, 0.0) } else { side.normalize() };
-        let up = along.cross(side);
-        let tip = cue.tip.as_vec3();
-        self.cue.set_transformation(Mat4::from_cols(
-            along.extend(0.0),
-            side.extend(0.0),
-            up.extend(0.0),
-            vec4(tip.x, tip.y, tip.z, 1.0),
-        ));
+        let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
+        self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
         self.render(&self.cue, Shader::Painted, &|_| {}, camera);
+    }
+
+    fn stylus(&mut self, stylus: &StylusPose, camera: &Camera) {
+        let (tip, along) = (Vec3::from(stylus.tip), Vec3::from(stylus.direction));
+        self.stylus.set_transformation(laid(tip, along, stylus.scale, stylus.scale));
+        self.render(&self.stylus, Shader::Painted, &|_| {}, camera);
+    }
+
+    fn solid(&mut self, solid: &Solid, camera: &Camera) {
+        let (from, way) = (Vec3::from(solid.from), Vec3::from(solid.to) - Vec3::from(solid.from));
+        let mesh = match solid.shape {
+            SolidShape::Ball => &mut self.ball,
+            SolidShape::Cylinder => &mut self.cylinder,
+            SolidShape::Cone => &mut self.cone,
+        };
+        let (length, width) = (way.magnitude(), solid.radius_m);
+        let placed = match solid.shape {
+            SolidShape::Ball => Mat4::from_translation(from) * Mat4::from_scale(width),
+            _ if length < 1e-6 => return,
+            _ => laid(from, way / length, length, width),
+        };
+        mesh.set_transformation(placed);
+        let mesh: &Mesh = match solid.shape {
+            SolidShape::Ball => &self.ball,
+            SolidShape::Cylinder => &self.cylinder,
+            SolidShape::Cone => &self.cone,
+        };
+        let colour = solid.colour;
+        let tell = |program: &Program| {
+            program.use_uniform_if_required("tint", Vec4::from(colour));
+            program.use_uniform_if_required("rim", 0.0);
+            program.use_uniform_if_required("shade", 1.0);
+        };
+        let shader = if solid.is_over { Shader::Over } else { Shader::Plain };
+        self.render(mesh, shader, &tell, camera);
     }
 
     fn shadow(&mut self, position: [f32; 3], radius_m: f32, camera: &Camera) {
@@ -215,6 +254,7 @@ impl Stage {
         let tell = |program: &Program| {
             program.use_uniform_if_required("tint", Vec4::from(colour));
             program.use_uniform_if_required("rim", rim);
+            program.use_uniform_if_required("shade", 0.0);
         };
         self.render(mesh, Shader::Plain, &tell, camera);
     }
@@ -232,6 +272,19 @@ fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
     // No line is one that lies beyond every table.
     let line_x_m = marks.line_x_m.unwrap_or(-1e3);
     (vec2(line_x_m as f32, d_radius_m as f32), spots)
+}
+
+/// From a body along +x to one at `at` along a unit vector, longer and wider by these factors.
+fn laid(at: Vec3, along: Vec3, length: f32, width: f32) -> Mat4 {
+    let side = vec3(0.0, 0.0, 1.0).cross(along);
+    let side = if side.magnitude2() < 1e-6 { vec3(0.0, 1.0, 0.0) } else { side.normalize() };
+    let up = along.cross(side);
+    Mat4::from_cols(
+        (along * length).extend(0.0),
+        (side * width).extend(0.0),
+        (up * width).extend(0.0),
+        at.extend(1.0),
+    )
 }
 
 fn kind(made: Made) -> u16 {

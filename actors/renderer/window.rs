@@ -1,5 +1,6 @@
 //! The window: its own loop on the main thread, the game beside it on another.
 
+use super::felt::{FeltScreen, FeltSetup};
 use super::hud;
 use super::outbox::Outbox;
 use super::pointer::Pointer;
@@ -67,6 +68,8 @@ pub struct WindowSetup {
     pub language: Language,
     /// Ends the game between two ticks.
     pub stop: StopFlag,
+    /// The haptic device; none where a scene has none.
+    pub felt: Option<FeltSetup>,
 }
 
 /// The game's ends of what joins it with its window.
@@ -92,6 +95,8 @@ struct Screen {
     texts: Texts,
     words: Words,
     radii: Radii,
+    table: Arc<Table>,
+    felt: Option<FeltScreen>,
 }
 
 /// The game is over: its thread has nothing more to say.
@@ -103,7 +108,7 @@ struct GameEnded;
 ///
 /// # Errors
 /// [`NoWindow`] if there can be no window; the game was not begun then.
-pub fn show<G>(setup: WindowSetup, game: G) -> Result<Result<Finished, RunError>, NoWindow>
+pub fn show<G>(mut setup: WindowSetup, game: G) -> Result<Result<Finished, RunError>, NoWindow>
 where
     G: FnOnce(Ports) -> Result<Finished, RunError> + Send + 'static,
 {
@@ -137,6 +142,8 @@ where
         texts,
         words: Words::new(setup.language),
         radii: setup.radii.clone(),
+        table: setup.table.clone(),
+        felt: setup.felt.take().map(FeltScreen::new),
     };
 
     let ended = events.create_proxy();
@@ -216,6 +223,22 @@ struct Desk {
     is_focused: bool,
     is_over: bool,
     held: Vec<Key>,
+}
+
+impl Screen {
+    /// What is drawn and written at `now_s`.
+    fn seen(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+        let (world, radii) = (self.playhead.shown(now_s), &self.radii);
+        let Some(felt) = &mut self.felt else {
+            let written = Hud::new(&self.board, view, &self.texts, &self.words);
+            return (DrawList::new(&world, view, radii), written);
+        };
+        let view = felt.view(view, &world, &self.table, radii, now_s);
+        let mut list = DrawList::new(&world, &view, radii);
+        felt.draw(&mut list);
+        let written = Hud::new(&self.board, &view, &self.texts, &self.words);
+        (list, felt.write(written, &view, &self.words))
+    }
 }
 
 impl Desk {
@@ -375,6 +398,9 @@ impl Desk {
         let now_s = self.start.elapsed().as_secs_f64();
         let state = screen.world.read().clone();
         screen.playhead.take(&state, now_s);
+        if let Some(felt) = &mut screen.felt {
+            felt.take(now_s);
+        }
     }
 
     fn draw(&mut self) {
@@ -390,9 +416,7 @@ impl Desk {
             self.pointer.release(&self.window);
         }
 
-        let world = self.screen.playhead.shown(self.start.elapsed().as_secs_f64());
-        let list = DrawList::new(&world, &view, &self.screen.radii);
-        let written = Hud::new(&self.screen.board, &view, &self.screen.texts, &self.screen.words);
+        let (list, written) = self.screen.seen(&view, self.start.elapsed().as_secs_f64());
         let size = self.window.inner_size();
         let is_same = self.shown.as_ref().is_some_and(|(a, b)| (a, b) == (&list, &written));
         if is_same || size.width == 0 || size.height == 0 {
@@ -450,6 +474,7 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::B => Key::Letter('b'),
         Code::C => Key::Letter('c'),
         Code::F => Key::Letter('f'),
+        Code::H => Key::Letter('h'),
         Code::O => Key::Letter('o'),
         Code::P => Key::Letter('p'),
         Code::Q => Key::Letter('q'),

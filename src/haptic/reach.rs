@@ -40,6 +40,10 @@ pub(super) struct Placed {
     pub direction: DVec3,
     /// From the device frame to the world, without scale.
     pub turn: DMat3,
+    /// Where the origin of the device frame lies in the world [m].
+    pub origin: DVec3,
+    /// What the workspace turns about [m].
+    pub pivot: DVec3,
     /// Metres of the world per metre of the device, along the shaft and across it.
     pub along: f64,
     /// See above.
@@ -127,6 +131,8 @@ impl Workspace {
             target: mapped + self.away * self.share_away(settings),
             direction: pointing,
             turn,
+            origin: pivot - turn * ball * reach.scale,
+            pivot,
             along: reach.scale,
             across: reach.scale,
             stabilised: false,

@@ -1,5 +1,5 @@
-//! A rehearsal: simulated device, servo and physics, tick by tick, without anything else of a
-//! game. What a hand does goes through the servo to the physics, and what balls do comes back.
+//! A rehearsal: device, servo and physics, tick by tick, without anything else of a game. What a
+//! hand does goes through the servo to the physics, and what balls do comes back.
 
 use super::device::{Device, DeviceSpec};
 use super::mesh::HapticMesh;
@@ -22,9 +22,9 @@ const PIECE_S: Seconds = 5.0 * TICK_S;
 
 /// A hand at a table.
 #[derive(Debug, Clone)]
-pub struct Rehearsal {
-    /// The device in its hand.
-    pub device: SimulatedDevice,
+pub struct Rehearsal<D = SimulatedDevice> {
+    /// The device, such as one in a simulated hand.
+    pub device: D,
     /// What renders.
     pub servo: Servo,
     /// What the servo is told.
@@ -48,7 +48,23 @@ impl Rehearsal {
         script: HandScript,
         aim: &Aim,
     ) -> Result<Self, PhysicsError> {
-        let settings = ServoSettings::of(&spec);
+        let device = SimulatedDevice::new(spec, hand, Guide::Script(script));
+        Rehearsal::with(table, balls, device, aim)
+    }
+}
+
+impl<D: Device> Rehearsal<D> {
+    /// Any device in front of the cue ball of `balls`, the workspace laid along `aim`.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if there is no cue ball, or if balls and table do not fit.
+    pub fn with(
+        table: &Table,
+        balls: Vec<(Ball, BallState)>,
+        device: D,
+        aim: &Aim,
+    ) -> Result<Self, PhysicsError> {
+        let settings = ServoSettings::of(&device.spec());
         let parameters = Parameters::of(&PhysicsSettings::default());
         let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
         let (_, state) = cue_ball.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
@@ -56,7 +72,7 @@ impl Rehearsal {
         let physics = Simulation::from_parts(table, balls.clone(), &PhysicsSettings::default())?;
         let mesh = Arc::new(HapticMesh::of(table));
         let mut rehearsal = Rehearsal {
-            device: SimulatedDevice::new(spec, hand, Guide::Script(script)),
+            device,
             servo: Servo::new(settings).among(mesh),
             scene: HapticScene { reach: Some(reach), ..HapticScene::default() },
             facts: Vec::new(),

@@ -4,7 +4,7 @@ use super::device::{DeviceState, Force};
 use crate::cue::CuePiece;
 use crate::ids::BallId;
 use crate::units::Seconds;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Two samples that differ less from one parabola are joined by it [m].
 const JOINED_M: f64 = 1e-9;
@@ -148,6 +148,28 @@ pub struct Counters {
     pub contacts: u64,
 }
 
+/// How the workspace of the device lies in the world now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorkspacePose {
+    /// Where the origin of the device frame lies [m].
+    pub origin: DVec3,
+    /// From the device frame to the world: columns are right, up and towards the user.
+    pub turn: DMat3,
+    /// Metres of the world per metre of the device.
+    pub scale: f64,
+    /// What it turns about: the middle of the ball to be struck [m].
+    pub pivot: DVec3,
+    /// Radius of the sphere that stands for the tip [m].
+    pub tip_radius_m: f64,
+}
+
+impl WorkspacePose {
+    /// A place of the device frame in the world [m].
+    pub fn to_world(&self, position: DVec3) -> DVec3 {
+        self.origin + self.turn * position * self.scale
+    }
+}
+
 /// Everything about one tick.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub struct ServoReport {
@@ -155,10 +177,14 @@ pub struct ServoReport {
     pub sample: StylusSample,
     /// Time since the servo began [s].
     pub time_s: Seconds,
+    /// Where the device would have the centre of the tip if nothing were in the way [m].
+    pub target: DVec3,
     /// Centre of the sphere that is felt: like the tip, but kept out of balls [m].
     pub proxy: DVec3,
     /// How far the tip is in what keeps the proxy out [m], in the device's scale.
     pub depth_m: f64,
+    /// How the workspace lies in the world; none while nothing is reached.
+    pub workspace: Option<WorkspacePose>,
     /// The direction that the workspace lies in now, and how far it is lowered [rad].
     pub azimuth_rad: f64,
     /// See above.
@@ -171,6 +197,8 @@ pub struct ServoReport {
     pub force_rms_n: f64,
     /// Energy that the passivity observer has seen go into the renderer [J]; negative: it came out.
     pub energy_j: f64,
+    /// Nothing is stiffer than this before the factor below [N/m].
+    pub stiffness_max_n_m: f64,
     /// What the stiffness of everything is multiplied by.
     pub stiffness_factor: f64,
     /// Which stages acted.

@@ -6,7 +6,7 @@ use super::mesh::HapticMesh;
 use super::obstacles::{Obstacle, Obstacles, Round};
 use super::proxy::{Met, Proxy};
 use super::reach::{Placed, Workspace};
-use super::report::{ContactEvent, ServoReport, StylusSample, Touched};
+use super::report::{ContactEvent, ServoReport, StylusSample, Touched, WorkspacePose};
 use super::safety::{Felt, Safety};
 use super::scene::{BALLS_MAX, HapticScene, Reach};
 use super::settings::ServoSettings;
@@ -99,6 +99,7 @@ impl Servo {
         self.report.sample.tick = self.report.counters.ticks;
         self.report.sample.dt = true_dt;
         self.report.sample.device = *device;
+        self.report.stiffness_max_n_m = self.settings.stiffness_max_n_m;
         let hand = Hand {
             position: device.position,
             velocity: self.velocity,
@@ -115,6 +116,7 @@ impl Servo {
         self.tip = Tip::default();
         self.lead = Lead::default();
         self.report.depth_m = 0.0;
+        self.report.workspace = None;
         self.report.sample.stabilised = false;
         Felt { contact: DVec3::ZERO, sharp: DVec3::ZERO }
     }
@@ -160,7 +162,7 @@ impl Servo {
         let back = placed.direction * self.lead.offset_m;
         let recoil = settings.coupling.recoil * stiffness * placed.in_device(back);
 
-        self.tell(&placed, pulled.length());
+        self.tell(reach, &placed, pulled.length());
         Felt {
             contact: placed.force + spring + damping + recoil,
             sharp: self.transient.force(dt, &settings.transient),
@@ -248,7 +250,7 @@ impl Servo {
             Some(ContactEvent { tick, before_end_s, touched, speed_m_s, impulse });
     }
 
-    fn tell(&mut self, placed: &Placed, depth_m: f64) {
+    fn tell(&mut self, reach: &Reach, placed: &Placed, depth_m: f64) {
         let (azimuth_rad, elevation_rad) = self.workspace.angles();
         self.report.sample = StylusSample {
             tip: self.tip.at(),
@@ -257,6 +259,14 @@ impl Servo {
             stabilised: placed.stabilised,
             ..self.report.sample
         };
+        self.report.target = placed.target;
+        self.report.workspace = Some(WorkspacePose {
+            origin: placed.origin,
+            turn: placed.turn,
+            scale: placed.across,
+            pivot: placed.pivot,
+            tip_radius_m: reach.tip_radius_m,
+        });
         self.report.proxy = self.proxy.centre();
         self.report.depth_m = depth_m;
         (self.report.azimuth_rad, self.report.elevation_rad) = (azimuth_rad, elevation_rad);

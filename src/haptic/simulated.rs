@@ -14,6 +14,7 @@ mod stroke;
 
 pub use hand::HandModel;
 pub use mouse::{MouseFeel, MouseHand};
+pub(crate) use plant::discrete;
 pub use script::{HandScript, Intent, Leg};
 
 use super::device::{Device, DeviceSpec, DeviceState, Force};

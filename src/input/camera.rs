@@ -2,8 +2,8 @@
 //!
 //! It belongs to the picture alone: nothing here is recorded or hashed.
 
-use super::CameraPose;
 use super::feel::{CAMERA_TICKS, PLACING_M_PER_HEIGHT, ZOOM};
+use super::{CameraPose, Look};
 use crate::cue::Aim;
 use glam::{DVec2, DVec3};
 
@@ -106,6 +106,11 @@ impl Camera {
     /// Goes nearer or farther away, by this factor.
     pub fn zoom(&mut self, factor: f64) {
         self.zoom = (self.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+    }
+
+    /// How the player looks round, from above or not.
+    pub fn looking(&self, bird: bool) -> Look {
+        Look { turn_rad: self.turn_rad, rise_rad: self.rise_rad, zoom: self.zoom, bird }
     }
 
     /// A tick passes.

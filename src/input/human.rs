@@ -16,8 +16,8 @@
 //! `t` takes up a ball: Tab is the next one then, and `t` again puts it back.
 //!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, Escape or `p` pauses, and `q` in a pause quits. Who waits for rolling balls or for
-//! somebody else holds `f`, and time runs faster.
+//! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause
+//! quits. Who waits for rolling balls or for somebody else holds `f`, and time runs faster.
 //!
 //! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
 
@@ -107,6 +107,7 @@ pub struct Human {
     camera: Camera,
     is_bird: bool,
     help: bool,
+    overlay: bool,
     paused: bool,
     /// The last answer said that time stands still: the frame of the next one is not used.
     was_paused: bool,
@@ -142,11 +143,17 @@ impl Human {
             camera: Camera::new(),
             is_bird: false,
             help: false,
+            overlay: false,
             paused: false,
             was_paused: false,
             pending: Frame::new(),
             is_aim_new: false,
         }
+    }
+
+    /// Whether there is anybody to play for.
+    pub fn plays(&self) -> bool {
+        !self.players.is_empty()
     }
 
     /// The same for a cue ball of another radius [m].
@@ -291,6 +298,7 @@ impl Human {
             Key::Tab => self.step(None),
             Key::Letter(letter @ ('b' | 's' | 'o')) => self.step(Some(letter)),
             Key::Help => self.help = !self.help,
+            Key::Letter('h') => self.overlay = !self.overlay,
             _ => {}
         }
         false

@@ -27,6 +27,25 @@ impl Default for CameraPose {
     }
 }
 
+/// How the player looks round from the usual place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Look {
+    /// To the left, and upwards [rad].
+    pub turn_rad: f64,
+    /// See above.
+    pub rise_rad: f64,
+    /// Distance over the usual one.
+    pub zoom: f64,
+    /// From above, over the whole table.
+    pub bird: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Look { turn_rad: 0.0, rise_rad: 0.0, zoom: 1.0, bird: false }
+    }
+}
+
 /// What the player is doing.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum HumanMode {
@@ -80,4 +99,8 @@ pub struct HumanView {
     pub is_practice: bool,
     /// The help text is shown.
     pub help: bool,
+    /// How the player looks round, for a camera that follows something else.
+    pub look: Look,
+    /// The panel of the haptic device is not as the scene begins with it: shown or hidden.
+    pub overlay: bool,
 }

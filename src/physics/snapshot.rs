@@ -5,6 +5,9 @@ use crate::cue::CuePose;
 use crate::ids::BallId;
 use crate::units::Seconds;
 
+/// A slower ball seems to lie [m/s].
+const SLOW_M_S: f64 = 0.005;
+
 /// All balls and the cue at one time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
@@ -20,6 +23,11 @@ impl Snapshot {
     /// The state of one ball.
     pub fn ball(&self, id: BallId) -> Option<&BallState> {
         self.balls.binary_search_by_key(&id, |ball| ball.id).ok().map(|i| &self.balls[i])
+    }
+
+    /// Whether any ball is seen to move.
+    pub fn is_rolling(&self) -> bool {
+        self.on_table().any(|ball| SLOW_M_S < ball.velocity.length())
     }
 
     /// The balls in play.

@@ -103,6 +103,70 @@ pub struct GhostBall {
     pub colour: [f32; 4],
 }
 
+/// What a [`Solid`] is, before it is laid between two points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SolidShape {
+    /// A ball about the first point.
+    Ball,
+    /// A round rod.
+    Cylinder,
+    /// A cone whose point is the second point.
+    Cone,
+}
+
+/// A simple body that shows something which is not there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    /// What it is.
+    pub shape: SolidShape,
+    /// From here [m].
+    pub from: [f32; 3],
+    /// To here [m].
+    pub to: [f32; 3],
+    /// Half its width [m].
+    pub radius_m: f32,
+    /// Red, green, blue in sRGB and opacity.
+    pub colour: [f32; 4],
+    /// It shines through what lies before it.
+    pub is_over: bool,
+}
+
+impl Solid {
+    /// A body between two points [m].
+    pub fn between(
+        shape: SolidShape,
+        from: DVec3,
+        to: DVec3,
+        radius_m: f32,
+        colour: [f32; 4],
+    ) -> Self {
+        let [from, to] = [from, to].map(|point| point.as_vec3().to_array());
+        Solid { shape, from, to, radius_m, colour, is_over: false }
+    }
+
+    /// A ball.
+    pub fn ball(middle: DVec3, radius_m: f32, colour: [f32; 4]) -> Self {
+        Solid::between(SolidShape::Ball, middle, middle, radius_m, colour)
+    }
+
+    /// The same, shining through.
+    #[must_use]
+    pub fn over(self) -> Self {
+        Solid { is_over: true, ..self }
+    }
+}
+
+/// The stylus of a haptic device.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StylusPose {
+    /// The middle of its tip [m].
+    pub tip: [f32; 3],
+    /// Unit vector from its end to its tip.
+    pub direction: [f32; 3],
+    /// Metres of the world per metre of the stylus.
+    pub scale: f32,
+}
+
 /// Everything that moves in one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawList {
@@ -116,6 +180,10 @@ pub struct DrawList {
     pub lines: Vec<Line>,
     /// The cue ball where it would go.
     pub ghosts: Vec<GhostBall>,
+    /// The stylus of a haptic device.
+    pub stylus: Option<StylusPose>,
+    /// What is drawn of forces and workspace, in this order.
+    pub solids: Vec<Solid>,
 }
 
 impl DrawList {
@@ -131,9 +199,11 @@ impl DrawList {
         let mut list = DrawList {
             camera: view.camera,
             balls,
-            cue: world.cue.map(|cue| held(cue, radii)),
+            cue: world.cue.map(|cue| held(cue, radii.tip_m)),
             lines: Vec::new(),
             ghosts: Vec::new(),
+            stylus: None,
+            solids: Vec::new(),
         };
         match view.mode {
             HumanMode::Aiming | HumanMode::Stroking => {
@@ -224,8 +294,8 @@ impl DrawList {
 }
 
 /// A cue whose drawn tip, that of a pool cue, ends where the real one does.
-fn held(cue: CuePose, radii: &Radii) -> CuePose {
-    CuePose { tip: cue.tip + cue.direction * (radii.tip_m - TIP_RADIUS_M), ..cue }
+pub(super) fn held(cue: CuePose, tip_m: f64) -> CuePose {
+    CuePose { tip: cue.tip + cue.direction * (tip_m - TIP_RADIUS_M), ..cue }
 }
 
 fn instance(ball: &BallState, radii: &Radii) -> BallInstance {

@@ -1,5 +1,7 @@
 //! The head-up display: what is written over the picture, as text and numbers without places.
 
+use super::felt::FeltTool;
+use super::overlay::FeltPanel;
 use super::scoreboard::Scoreboard;
 use super::words::Words;
 use crate::cue::OFFSET_LIMIT;
@@ -82,6 +84,8 @@ pub struct Hud {
     pub help: Option<(String, Vec<(String, String)>)>,
     /// How to get help; empty while it is shown.
     pub help_hint: String,
+    /// What the haptic device does.
+    pub felt: Option<FeltPanel>,
 }
 
 impl Hud {
@@ -163,6 +167,32 @@ impl Hud {
             hud.help = Some((words.get("help_title"), words.help().to_vec()));
         }
         hud
+    }
+}
+
+impl Hud {
+    /// The same with the panel of a haptic device, and with other words where a mouse moves the
+    /// hand that holds this tool.
+    #[must_use]
+    pub fn with_felt(
+        self,
+        felt: Option<FeltPanel>,
+        by_mouse: Option<FeltTool>,
+        view: &HumanView,
+        words: &Words,
+    ) -> Self {
+        let Some(tool) = by_mouse else { return Hud { felt, ..self } };
+        let hint = match (tool, view.mode) {
+            (_, HumanMode::Paused | HumanMode::Placing) => self.hint,
+            (FeltTool::Stylus, _) => words.get("felt_touch"),
+            (FeltTool::Cue, HumanMode::Stroking) => words.get("felt_stroke"),
+            (FeltTool::Cue, HumanMode::Aiming) => words.get("felt_aim"),
+            // Away from the ball one finds back like this; while balls roll there is nothing to do.
+            (FeltTool::Cue, _) if self.hint.is_empty() => words.get("felt_aim"),
+            (FeltTool::Cue, _) => self.hint,
+        };
+        let help = self.help.map(|(title, _)| (title, words.help_felt().to_vec()));
+        Hud { felt, hint, help, ..self }
     }
 }
 

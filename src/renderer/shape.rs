@@ -78,7 +78,6 @@ const RUBBER: [f32; 3] = [0.04, 0.04, 0.04];
 
 /// A cue along +x: the middle of its tip sphere at the origin, the butt at −x.
 pub fn cue_shape() -> Shape {
-    const CHORDS: u32 = 20;
     let taper = |back: f64| {
         let s = ((back - 0.02) / (CUE_LENGTH_M - 0.02)).clamp(0.0, 1.0);
         SHAFT_RADIUS_M + (BUTT_RADIUS_M - SHAFT_RADIUS_M) * libm::pow(s, 1.25)
@@ -111,6 +110,12 @@ pub fn cue_shape() -> Shape {
     }
     rings.push((start + CUE_LENGTH_M, 0.0, RUBBER));
 
+    turned(&rings)
+}
+
+/// A body of revolution about x from rings: distance behind the origin, radius, colour.
+fn turned(rings: &[(f64, f64, [f32; 3])]) -> Shape {
+    const CHORDS: u32 = 20;
     let mut shape = Shape::default();
     let slopes: Vec<DVec2> = (0..rings.len())
         .map(|i| {
@@ -137,4 +142,43 @@ pub fn cue_shape() -> Shape {
         }
     }
     shape
+}
+
+const STEEL: [f32; 3] = [0.55, 0.57, 0.60];
+const BODY: [f32; 3] = [0.10, 0.11, 0.13];
+const GRIP: [f32; 3] = [0.20, 0.22, 0.26];
+const BUTTON: [f32; 3] = [0.62, 0.64, 0.68];
+
+/// A stylus along +x without its tip, whose middle is the origin [m].
+pub fn stylus_shape() -> Shape {
+    // Distance behind the tip and radius, each part from its begin to its end.
+    let parts: [(f64, f64, f64, f64, [f32; 3]); 6] = [
+        (0.001, 0.0011, 0.024, 0.0014, STEEL),
+        (0.024, 0.0014, 0.034, 0.0032, BODY),
+        (0.034, 0.0032, 0.056, 0.0036, GRIP),
+        (0.056, 0.0041, 0.061, 0.0041, BUTTON),
+        (0.061, 0.0036, 0.108, 0.0030, BODY),
+        (0.108, 0.0030, 0.111, 0.0, BODY),
+    ];
+    let ends =
+        parts.iter().flat_map(|&(from, r, to, s, colour)| [(from, r, colour), (to, s, colour)]);
+    turned(&std::iter::once((0.001, 0.0, STEEL)).chain(ends).collect::<Vec<_>>())
+}
+
+/// A rod along +x from 0 to 1 with radius 1, closed at both ends.
+pub fn cylinder() -> Shape {
+    let white = [1.0; 3];
+    Shape {
+        colours: Vec::new(),
+        ..turned(&[(-1.0, 0.0, white), (-1.0, 1.0, white), (0.0, 1.0, white), (0.0, 0.0, white)])
+    }
+}
+
+/// A cone along +x with its point at 1, and radius 1 at 0.
+pub fn cone() -> Shape {
+    let white = [1.0; 3];
+    Shape {
+        colours: Vec::new(),
+        ..turned(&[(-1.0, 0.0, white), (0.0, 1.0, white), (0.0, 0.0, white)])
+    }
 }

@@ -7,6 +7,7 @@ use crate::rules::Language;
 pub struct Words {
     table: toml::Table,
     help: Vec<(String, String)>,
+    help_felt: Vec<(String, String)>,
 }
 
 impl Words {
@@ -18,9 +19,11 @@ impl Words {
         let text = |row: &toml::Value, key: &str| {
             row.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_string()
         };
-        let rows = table.get("help").and_then(toml::Value::as_array);
-        let help = rows.into_iter().flatten().map(|row| (text(row, "keys"), text(row, "does")));
-        Words { help: help.collect(), table }
+        let rows = |key: &str| {
+            let rows = table.get(key).and_then(toml::Value::as_array).into_iter().flatten();
+            rows.map(|row| (text(row, "keys"), text(row, "does"))).collect()
+        };
+        Words { help: rows("help"), help_felt: rows("help_felt"), table }
     }
 
     /// The text at a key; the key itself where there is none, so that nothing is ever silent.
@@ -36,6 +39,11 @@ impl Words {
     /// The controls: what to press and what it does.
     pub fn help(&self) -> &[(String, String)] {
         &self.help
+    }
+
+    /// The controls while a mouse moves the hand at a haptic device.
+    pub fn help_felt(&self) -> &[(String, String)] {
+        &self.help_felt
     }
 
     /// All keys, for comparing languages.

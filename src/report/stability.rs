@@ -3,12 +3,10 @@
 mod cases;
 mod hertz;
 mod springs;
-mod wall;
 
 pub use cases::CASES;
 pub use hertz::{HertzRow, hertz_rows};
 pub use springs::{Limit, RATIOS, STIFFNESSES, spring_cell, spring_limit};
-pub use wall::{WallRow, wall_rows};
 
 use super::method::Method;
 use super::starts::{self, R, on_bed};

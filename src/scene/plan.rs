@@ -92,7 +92,11 @@ impl Scene {
                 let device = haptic.device.name();
                 match haptic.device {
                     HapticDevice::None => plan.left_out("haptic", "[haptic] names no device"),
-                    HapticDevice::Auto | HapticDevice::Simulated | HapticDevice::Mouse => {
+                    HapticDevice::Auto
+                    | HapticDevice::Simulated
+                    | HapticDevice::Mouse
+                    | HapticDevice::Recorded(_)
+                    | HapticDevice::Haply(_) => {
                         let detail = format!(
                             "what the device \"{device}\" feels, in a window; a task, and its \
                              servo on a real-time thread"
@@ -105,10 +109,6 @@ impl Scene {
                              servo in the scheduler of the device's library"
                         );
                         plan.add(PlanKind::Actor, "haptic", &detail);
-                    }
-                    HapticDevice::Recorded(_) | HapticDevice::Haply => {
-                        let why = format!("the device \"{device}\" is not built in");
-                        plan.left_out("haptic", &why);
                     }
                 }
             }

@@ -480,7 +480,7 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 }
 
 fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
-    section.allow(&["device", "core", "priority", "spin_us"])?;
+    section.allow(&["device", "core", "priority", "spin_us", "overlay"])?;
     let text = section.text("device", "auto").ok().flatten();
     let nameless = |allowed: &str, fix: &str| Err(section.error("device", allowed, fix));
     let device = match text.as_deref() {
@@ -494,6 +494,10 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         }
         text => match text.and_then(HapticDevice::named) {
             Some(device) => device,
+            None if text.is_some_and(|text| text.starts_with("haply:")) => {
+                let fix = "write for example device = \"haply:localhost:10001\"";
+                return nameless("names no HOST:PORT", fix);
+            }
             None => plain_device(section)?,
         },
     };
@@ -505,6 +509,7 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         core: number("core", 0..=1023)?,
         priority: number("priority", 1..=99)?,
         spin_us: number("spin_us", 0..=500)?,
+        overlay: section.switch("overlay")?.unwrap_or(false),
     })
 }
 

@@ -13,6 +13,7 @@ mod walls;
 
 pub(crate) use bench::{Bench, wall};
 pub(super) use limits::{divergence_sign, stability_limit};
+pub(crate) use limits::{limit, stiffest_wall};
 pub(super) use strike::strike_repeatability;
 pub(super) use walls::{
     bounce_gain, energy_observer, hold_still, passivity_controller, wall_settles,

@@ -6,6 +6,8 @@ mod aim;
 mod calls;
 /// A game in lockstep with a script at mouse and keyboard.
 pub mod desk;
+/// A person whose stylus strikes.
+mod led;
 /// Whole turns and games of a person.
 mod play;
 /// Strokes: what the hand does is what the tip does.

@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// Messages of a haptic device's service, and recordings of devices.
+mod devices;
 /// Random facts for the referee.
 mod facts;
 /// Texts that come from outside: scenes, meshes, tables, catalogues.

@@ -12,6 +12,8 @@ mod contact;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
+/// Recordings of haptic devices as files.
+mod device_recordings;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
@@ -21,6 +23,8 @@ mod failures;
 mod files;
 /// From the stylus to the mouse and back.
 mod hand_over;
+/// A Haply device at a service of our own.
+mod haply;
 /// The haptic renderer on the bench.
 mod haptic;
 /// Somebody who hears events and keeps them.

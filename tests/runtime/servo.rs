@@ -5,11 +5,11 @@ use crate::counting::calls;
 use crate::hearing::Hears;
 use glam::{DVec2, DVec3};
 use hapticbillard::cue::Aim;
-use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics};
+use hapticbillard::events::{Event, Fact, FactKind, Health, Topic, Topics, Verdict};
 use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, Leg, SimulatedDevice};
 use hapticbillard::haptic::{
     Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Effect, EffectSet, Force, HapticMesh,
-    Reach, ReachSettings, SafetyFlags, Servo, ServoSettings, Touched,
+    Reach, ReachSettings, SafetyFlags, Servo, ServoReport, ServoSettings, Touched,
 };
 use hapticbillard::ids::BallId;
 use hapticbillard::physics::Snapshot;
@@ -20,13 +20,14 @@ use hapticbillard_actors::event_manager::Sink;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    AllPorts, Asked, Body, ControlPorts, Core, Grant, Haptic, Look, Opened, Orders, Plan, Seat,
-    Signs, Started, Stylus, WorldPort, keep, open,
+    AllPorts, Asked, Body, ControlPorts, Core, DeviceRecorder, Grant, Haptic, Look, Opened, Orders,
+    Plan, Seat, Signs, Started, Stylus, Watch, WorldPort, keep, open,
 };
 use hapticbillard_actors::pacer::Tempo;
 use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use kameo::prelude::*;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
@@ -158,14 +159,19 @@ fn a_turn_of_the_loop_allocates_nothing() {
     };
     let orders = Orders { effects: push(1), reach: Some(reach), stiffness_max_n_m: 500.0 };
     let bodies = balls.into_iter().map(|(ball, _)| ball).collect();
+    // A window and a file look on.
+    let (picture, mut shown) = triple_buffer::triple_buffer(&ServoReport::default());
+    let (telemetry, mut rows) = rtrb::RingBuffer::new(64);
+    let (picture, telemetry) = (Some(picture), Some(telemetry));
+    let watch = Watch { picture, telemetry, ..Watch::default() };
     let AllPorts { servo, mut control, mut stylus, mut world, signs } =
-        AllPorts::new(orders, bodies);
+        AllPorts::watched(orders, bodies, watch);
     let device = open(&HapticDevice::Simulated).unwrap().unwrap().device;
     let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI))
         .among(Arc::new(HapticMesh::of(&stage.table)));
     let mut body = Body::new(device, rendered, servo);
     signs.hold(true);
-    let mut felt_n = 0.0_f64;
+    let (mut felt_n, mut told) = (0.0_f64, 0_u64);
     for tick in 0_u32..5000 {
         if tick % 3 == 0 {
             world.show(&table);
@@ -177,11 +183,25 @@ fn a_turn_of_the_loop_allocates_nothing() {
         // For a while nobody takes samples: the ring is full.
         if !(2000..3000).contains(&tick) {
             while stylus.samples.pop().is_ok() {}
+            while let Ok(row) = rows.pop() {
+                assert_eq!((row.report.sample.tick, row.late_ns), (told + 1, 7));
+                told += 1;
+            }
         }
         let before = calls();
+        body.begin_late(7);
         let force = body.turn(0.001).force;
         assert_eq!(calls() - before, 0, "tick {tick}");
         felt_n = felt_n.max(force.0.length());
+        assert_eq!(shown.read().sample.tick, u64::from(tick) + 1);
+        if tick == 2999 {
+            // What waited is told; what found no room is lost, and counted.
+            assert_eq!(control.timing.lost_rows(), 1001 - 64);
+            while rows.pop().is_ok() {
+                told += 1;
+            }
+            told += control.timing.lost_rows();
+        }
     }
     assert!(felt_n > 0.05, "nothing was felt");
     assert!(control.timing.lost_samples() > 500, "the ring was never full");
@@ -445,21 +465,24 @@ kind = "human"
 device = "simulated"
 "#;
 
-#[test]
-fn a_hand_breaks_and_the_referee_judges_it() {
-    let file = folder("two_hands").join("two_hands.toml");
-    fs::write(&file, TWO_HANDS).unwrap();
+/// What two hands at a table came to.
+struct Broken {
+    /// Every contact that was felt, with the force in its tick [N].
+    felt: Vec<(f64, Touched)>,
+    /// How fast the cue struck [m/s].
+    speeds: Vec<f64>,
+    verdicts: Vec<Verdict>,
+}
+
+/// Lets a device break, tick by tick with the game, in the scene at `file`.
+fn broken(file: &Path, device: impl FnOnce(Opened) -> Opened) -> Broken {
     let stage = Stage::new(&load_scene(file.to_str().unwrap()).unwrap(), "two_hands").unwrap();
     let plan = stage.haptic().unwrap().unwrap();
     let (effects, reach) = (plan.effects, plan.reach);
     let orders = Orders { effects, reach, stiffness_max_n_m: 500.0 };
     let AllPorts { servo, control, stylus, world, signs } = AllPorts::new(orders, plan.bodies);
-    // The hand lets go and gets out of the way of what comes back.
-    let aside = Leg::to(DVec3::new(0.0, 0.03, 0.02), 0.3);
-    let stroke = HandScript::stroke(1.2, 0.3).then(aside);
-    let guide = Guide::Script(stroke);
-    let device = Box::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::ARM, guide));
-    let rendered = Servo::new(ServoSettings::of(&DeviceSpec::OMNI)).among(plan.mesh.unwrap());
+    let device = device(plan.opened).device;
+    let rendered = Servo::new(ServoSettings::of(&device.spec())).among(plan.mesh.unwrap());
     let (shown, table) = triple_buffer::triple_buffer(&Arc::<Snapshot>::default());
     let felt = Arc::new(Mutex::new(Vec::new()));
     let body = Body::new(device, rendered, servo);
@@ -479,12 +502,8 @@ fn a_hand_breaks_and_the_referee_judges_it() {
     };
     runtime::run(stage.cast().unwrap(), setup).unwrap();
 
-    let felt = felt.lock().unwrap();
-    let struck = felt.iter().filter(|(_, touched)| *touched == Touched::Struck(BallId::CUE));
-    assert_eq!(struck.count(), 1, "{felt:?}");
-    assert!(felt.iter().all(|(force_n, _)| *force_n <= 3.3), "{felt:?}");
     let told = facts.iter().flat_map(|delivered| delivered.events.to_vec());
-    let speeds: Vec<f64> = told
+    let speeds = told
         .filter_map(|stamped| match stamped.event {
             Event::Fact(Fact {
                 kind: FactKind::CueBallStruck { normal_speed_m_s, .. }, ..
@@ -492,12 +511,33 @@ fn a_hand_breaks_and_the_referee_judges_it() {
             _ => None,
         })
         .collect();
-    // Scale and gain make 6.6 m/s of an arm at 1.2 m/s.
-    assert!((speeds[0] / 6.6 - 1.0).abs() < 0.03, "{speeds:?}");
     let verdicts = verdicts.heard(|event| match event {
-        Event::Verdict(verdict) => Some(verdict.clone()),
+        Event::Verdict(verdict) => Some(Verdict::clone(verdict)),
         _ => None,
     });
+    let felt = felt.lock().unwrap().clone();
+    Broken { felt, speeds, verdicts }
+}
+
+/// The scene with two hands, and a hand that breaks.
+fn two_hands(name: &str) -> (PathBuf, SimulatedDevice) {
+    let file = folder(name).join("two_hands.toml");
+    fs::write(&file, TWO_HANDS).unwrap();
+    // The hand lets go and gets out of the way of what comes back.
+    let aside = Leg::to(DVec3::new(0.0, 0.03, 0.02), 0.3);
+    let guide = Guide::Script(HandScript::stroke(1.2, 0.3).then(aside));
+    (file, SimulatedDevice::new(DeviceSpec::OMNI, HandModel::ARM, guide))
+}
+
+#[test]
+fn a_hand_breaks_and_the_referee_judges_it() {
+    let (file, hand) = two_hands("two_hands");
+    let Broken { felt, speeds, verdicts } = broken(&file, |_| Opened::new(hand));
+    let struck = felt.iter().filter(|(_, touched)| *touched == Touched::Struck(BallId::CUE));
+    assert_eq!(struck.count(), 1, "{felt:?}");
+    assert!(felt.iter().all(|(force_n, _)| *force_n <= 3.3), "{felt:?}");
+    // Scale and gain make 6.6 m/s of an arm at 1.2 m/s.
+    assert!((speeds[0] / 6.6 - 1.0).abs() < 0.03, "{speeds:?}");
     assert_eq!(verdicts.len(), 1, "{verdicts:?}");
 }
 
@@ -526,4 +566,24 @@ fn a_mouse_turns_and_raises_the_workspace() {
         is_near(now.azimuth_rad, before.azimuth_rad + 0.2)
             && is_near(now.elevation_rad, before.elevation_rad + 0.2)
     });
+}
+
+#[test]
+fn a_recorded_hand_breaks_as_it_did_bit_by_bit() {
+    let (file, hand) = two_hands("recorded_hand");
+    let mut recorder = None;
+    let once = broken(&file, |_| {
+        let path = file.with_file_name("hand.jsonl");
+        let (opened, tapped) = DeviceRecorder::tap(Opened::new(hand), path).unwrap();
+        recorder = Some(tapped);
+        opened
+    });
+    let recorded = recorder.unwrap().finish().unwrap();
+    assert!(recorded.readings >= 20_000 && recorded.lost == 0, "{recorded:?}");
+    let scene = TWO_HANDS.replace("\"simulated\"", "\"recorded:hand.jsonl\"");
+    fs::write(&file, scene).unwrap();
+    let again = broken(&file, |opened| opened);
+    assert_eq!(again.felt, once.felt);
+    assert_eq!((again.speeds, again.verdicts), (once.speeds, once.verdicts));
+    assert!(once.felt.iter().any(|(_, touched)| *touched == Touched::Struck(BallId::CUE)));
 }

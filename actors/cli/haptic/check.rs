@@ -1,5 +1,7 @@
 //! `hapticbillard haptic check`: the servo's thread on this machine.
 
+use super::load::Load;
+use crate::cli::play::stop_at_interrupt;
 use crate::cli::{Status, json_line, positive};
 use clap::Args;
 use glam::DVec3;
@@ -13,12 +15,13 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, Grant, Histogram, Obtained, Plan, Seat, Started, Timing, open,
+    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Plan, Recorded, Seat, Started,
+    Telemetry, Timing, Watch, Written, allowed, open,
 };
 use serde_json::{Value, json};
 use std::io::Write;
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 const EXAMPLE: &str = "\
@@ -32,10 +35,16 @@ A real device is pushed, and with its whole force where its stylus is moved agai
 it. Where a vendor's library has a scheduler of its own, that one turns the servo; --core,
 --priority and --spin-us are its affair then, and lateness is from one period after the last tick.
 
+With --record what the device says is written down, tick by tick; --device recorded:FILE says it
+again, here or in a scene. Ctrl-C ends early and loses nothing.
+
 Examples:
   hapticbillard haptic check
   hapticbillard haptic check --seconds 15 --load --json
-  hapticbillard haptic check --device openhaptics";
+  hapticbillard haptic check --device openhaptics
+  hapticbillard haptic check --device haply --seconds 60 --record hand.jsonl
+  hapticbillard haptic check --device recorded:hand.jsonl
+  hapticbillard haptic check --telemetry ticks.csv";
 
 /// The scene that is felt.
 const SCENE: &str = "eight_ball";
@@ -55,6 +64,10 @@ pub struct CheckArgs {
     #[arg(long, value_name = "DEVICE", default_value = "simulated", value_parser = device)]
     pub device: HapticDevice,
 
+    /// Records what the device says into this file, as JSON lines.
+    #[arg(long, value_name = "FILE")]
+    pub record: Option<PathBuf>,
+
     /// Keeps every core busy meanwhile.
     #[arg(long)]
     pub load: bool,
@@ -70,6 +83,10 @@ pub struct CheckArgs {
     /// How long before a deadline to stop sleeping [µs].
     #[arg(long, value_name = "US", value_parser = clap::value_parser!(u32).range(0..=500))]
     pub spin_us: Option<u32>,
+
+    /// Writes every tick into this file, as CSV.
+    #[arg(long, value_name = "FILE")]
+    pub telemetry: Option<PathBuf>,
 
     /// Prints JSON lines.
     #[arg(long)]
@@ -90,6 +107,10 @@ struct Checked {
     troubles: Vec<String>,
     /// Whether it is not ready now.
     is_in_trouble: bool,
+    /// What was recorded, where that was wanted.
+    recorded: Option<Recorded>,
+    /// The telemetry that was written, where that was wanted.
+    written: Option<Written>,
 }
 
 /// Runs the servo and tells.
@@ -116,6 +137,9 @@ pub fn run(args: &CheckArgs, out: &mut dyn Write) -> Result<Status, Error> {
         json_line(out, &json!({ "summary": summary(args, &checked, asked) }))?;
     } else {
         print(&checked, asked, out)?;
+        if let Some(written) = &checked.written {
+            writeln!(out, "{written}")?;
+        }
     }
     Ok(if is_ours || checked.is_in_trouble { Status::CheckFailed } else { Status::Success })
 }
@@ -132,6 +156,13 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
     let Some(opened) = open(&args.device)? else {
         return Err(Error::input("haptic check", "there is no device", "report this as a defect"));
     };
+    let (opened, recorder) = match &args.record {
+        Some(path) => {
+            let (opened, recorder) = DeviceRecorder::tap(opened, path.clone())?;
+            (opened, Some(recorder))
+        }
+        None => (opened, None),
+    };
     let plan = Plan {
         opened,
         asked,
@@ -141,12 +172,23 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
         lay: None,
         bodies: balls.into_iter().map(|(ball, _)| ball).collect(),
     };
-    let Started { seat, mut world, .. } = Seat::start(plan)?;
+    // Ctrl-C ends it early, and in order.
+    let stop = stop_at_interrupt();
+    let mut watch = Watch::default();
+    let telemetry = match &args.telemetry {
+        None => None,
+        Some(file) => {
+            let (telemetry, port) = Telemetry::begin(file, watch.timing.clone())?;
+            watch.telemetry = Some(port);
+            Some(telemetry)
+        }
+    };
+    let Started { seat, mut world, .. } = Seat::start_watched(plan, watch)?;
     let mut held = seat.hold();
     let end = Instant::now() + Duration::from_secs_f64(args.seconds);
     let table = simulation.snapshot(simulation.now_s());
     let mut troubles = Vec::new();
-    while Instant::now() < end && seat.is_running() {
+    while Instant::now() < end && seat.is_running() && !stop.is_set() {
         world.show(&table);
         troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
         std::thread::sleep(Duration::from_millis(1));
@@ -155,7 +197,9 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
     let is_in_trouble = !seat.is_running() || seat.why().is_some();
     troubles.extend(seat.why().filter(|why| troubles.last() != Some(why)));
     drop(held);
-    Ok(Checked { seat, counters, troubles, is_in_trouble })
+    let recorded = recorder.map(DeviceRecorder::finish).transpose()?;
+    let written = telemetry.map(Telemetry::finish).transpose()?;
+    Ok(Checked { seat, counters, troubles, is_in_trouble, recorded, written })
 }
 
 /// Eight effects, weak enough for the hand to pass through all of them.
@@ -175,39 +219,6 @@ fn effects() -> EffectSet {
             Effect::StickSlip { region, stiffness_n_m, force_max_n: 0.1 },
         ],
     )
-}
-
-/// Threads that compute for nothing, one for each core, until they are dropped.
-struct Load {
-    stop: Arc<AtomicBool>,
-    threads: Vec<std::thread::JoinHandle<()>>,
-}
-
-impl Load {
-    fn start() -> Self {
-        let stop = Arc::new(AtomicBool::new(false));
-        let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let threads = (0..cores).map(|_| {
-            let stop = stop.clone();
-            std::thread::spawn(move || {
-                let mut x = 0_u64;
-                while !stop.load(Ordering::Relaxed) {
-                    x = std::hint::black_box(x.wrapping_mul(6_364_136_223_846_793_005) + 1);
-                }
-            })
-        });
-        Load { threads: threads.collect(), stop }
-    }
-}
-
-impl Drop for Load {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        for thread in self.threads.drain(..) {
-            // It computes nothing that it could fail at.
-            let _ = thread.join();
-        }
-    }
 }
 
 fn us(ns: u64) -> f64 {
@@ -241,6 +252,11 @@ fn summary(args: &CheckArgs, checked: &Checked, asked: Asked) -> Value {
             "model": spec.model,
             "rate_hz": spec.rate_hz,
             "force_max_n": spec.force_max_n,
+            "latency_us": us((spec.latency_s * 1e9) as u64),
+            "late_us": us((seat.device_late_s() * 1e9) as u64),
+            "stiffness_max_n_m": allowed(seat),
+            "recorded": checked.recorded.map(|recorded| recorded.readings),
+            "recording_lost": checked.recorded.map(|recorded| recorded.lost),
             "refused": seat.device_refusal().map(ToString::to_string),
             "troubles": troubles,
         },
@@ -250,6 +266,9 @@ fn summary(args: &CheckArgs, checked: &Checked, asked: Asked) -> Value {
             "stalls": counters.stalls,
             "too_fast": counters.too_fast,
         },
+        "telemetry": checked.written.as_ref().map(|Written { path, rows, lost }| {
+            json!({ "file": path, "rows": rows, "lost": lost })
+        }),
     })
 }
 
@@ -257,7 +276,16 @@ fn print(checked: &Checked, asked: Asked, out: &mut dyn Write) -> Result<(), Err
     let Checked { seat, counters, troubles, .. } = checked;
     let spec = seat.spec();
     let (model, force_n, rate_hz) = (spec.model, spec.force_max_n, spec.rate_hz);
-    writeln!(out, "device     {model}, {force_n} N, {rate_hz} Hz")?;
+    let (latency, late) = (spec.latency_s * 1000.0, seat.device_late_s() * 1000.0);
+    writeln!(
+        out,
+        "device     {model}, {force_n} N, {rate_hz} Hz, {latency:.2} ms late and {late:.2} ms more \
+         at times; {:.0} N/m at most",
+        allowed(seat)
+    )?;
+    if let Some(Recorded { readings, lost }) = checked.recorded {
+        writeln!(out, "recorded   {readings} readings, {lost} lost")?;
+    }
     for trouble in seat.device_refusal().map(ToString::to_string).iter().chain(troubles) {
         writeln!(out, "trouble    {trouble}")?;
     }

@@ -13,6 +13,11 @@ OpenHaptics, device = \"openhaptics:NAME\" names the one that the vendor's progr
 OpenHaptics library is looked for where the system looks for libraries; the environment variable
 HAPTICBILLARD_LIBHD names another file. No device is pushed by this command.
 
+A Haply Inverse3 is looked for at its service on this machine, which the Haply Hub starts; device =
+\"haply:HOST:PORT\" names another one. A recording is made by `haptic check --record FILE`, `haptic
+simulate --stroke 1 --record FILE` or `play --record-device FILE`, and lies in the scene's folder or
+below.
+
 Examples:
   hapticbillard haptic devices
   hapticbillard haptic devices --json
@@ -40,12 +45,13 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
                     "force_continuous_n": spec.force_continuous_n,
                     "stiffness_max_n_m": spec.stiffness_max_n_m,
                     "rate_hz": spec.rate_hz,
+                    "latency_s": spec.latency_s,
                 })
             });
             let line = json!({
                 "name": device.name,
                 "about": device.about,
-                "built_in": device.is_built_in,
+                "built_in": true,
                 "spec": spec,
                 "says": device.says,
             });
@@ -61,8 +67,8 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
                     spec.stiffness_max_n_m,
                     spec.rate_hz
                 ),
-                None if device.is_built_in => "not there".to_string(),
-                None => "not built in".to_string(),
+                None if device.name.starts_with("recorded") => "like the recorded one".to_string(),
+                None => "not there".to_string(),
             };
             writeln!(out, "{:<14} {}; {how}", device.name, device.about)?;
             if let Some(says) = &device.says {
@@ -71,8 +77,9 @@ pub fn run(args: &DevicesArgs, out: &mut dyn Write) -> Result<Status, Error> {
         }
     }
     if args.json {
-        let built_in = devices.iter().filter(|device| device.is_built_in).count();
-        let summary = json!({ "devices": devices.len(), "built_in": built_in });
+        let there = devices.iter().filter(|device| device.spec.is_some()).count();
+        let count = devices.len();
+        let summary = json!({ "devices": count, "built_in": count, "there": there });
         json_line(out, &json!({ "summary": summary }))?;
     }
     Ok(Status::Success)

@@ -7,17 +7,22 @@ use clap::{Args, ValueEnum};
 use hapticbillard::ball::{Ball, BallState, POOL_RADIUS_M};
 use hapticbillard::cue::Aim;
 use hapticbillard::events::FactKind;
-use hapticbillard::haptic::simulated::{HandModel, HandScript};
-use hapticbillard::haptic::{DeviceSpec, Rehearsal, telemetry};
+use hapticbillard::haptic::simulated::{Guide, HandModel, HandScript, SimulatedDevice};
+use hapticbillard::haptic::{
+    Device, DeviceSpec, Reading, RecordedDevice, RecordingWriter, Rehearsal, StylusSample,
+    telemetry,
+};
 use hapticbillard::ids::BallId;
 use hapticbillard::shipped;
 use hapticbillard::table::Table;
 use hapticbillard::units::TICK_S;
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::write_whole;
+use hapticbillard_actors::haptic::load_recording;
 use serde_json::json;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 const EXAMPLE: &str = "\
 Without --stroke it runs cases of the closed loop: stability limits found by bisection, bounces,
@@ -25,12 +30,16 @@ walls under hands, strokes at every phase. Each row is a case, as `validate` pri
 if one fails.
 
 With --stroke a simulated hand strikes the cue ball on a 9-foot table with a simulated PHANTOM
-Omni; --out writes every tick of the servo as CSV.
+Omni; --out writes every tick of the servo as CSV, --record what the device said, for a scene
+(device = \"recorded:FILE\") or for --device recorded:FILE. With --recording a device that was
+recorded strikes instead; the same servo gives the same forces, bit by bit.
 
 Examples:
   hapticbillard haptic simulate
   hapticbillard haptic simulate --cases haptic_cases.json --json
-  hapticbillard haptic simulate --stroke 1.0 --hand firm --out stroke.csv";
+  hapticbillard haptic simulate --stroke 1.0 --hand firm --out stroke.csv
+  hapticbillard haptic simulate --stroke 1.0 --record hand.jsonl
+  hapticbillard haptic simulate --recording hand.jsonl --json";
 
 /// How long the hand waits before it strikes [s].
 const PAUSE_S: f64 = 0.3;
@@ -55,9 +64,17 @@ pub struct SimulateArgs {
     #[arg(long, value_enum, default_value_t, requires = "stroke")]
     pub hand: Hand,
 
+    /// A stroke of a recorded device.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["stroke", "cases", "only"])]
+    pub recording: Option<PathBuf>,
+
     /// Every tick of the stroke, as CSV.
-    #[arg(long, value_name = "FILE", requires = "stroke")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["cases", "only"])]
     pub out: Option<PathBuf>,
+
+    /// What the device said during the stroke, as JSON lines.
+    #[arg(long, value_name = "FILE", requires = "stroke")]
+    pub record: Option<PathBuf>,
 
     /// Prints JSON lines.
     #[arg(long)]
@@ -91,42 +108,65 @@ impl Hand {
 
 /// Runs cases, or a stroke.
 pub fn run(args: &SimulateArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    match args.stroke {
-        Some(speed_m_s) => stroke(args, speed_m_s, out),
-        None => judge(
-            &Judged {
-                cases: args.cases.as_ref(),
-                shipped: shipped::HAPTIC_CASES,
-                solver: None,
-                only: &args.only,
-                json: args.json,
-                command: "haptic simulate",
-            },
-            out,
-        ),
+    if let Some(path) = &args.recording {
+        return replayed(args, path, out);
     }
+    if let Some(speed_m_s) = args.stroke {
+        return stroke(args, speed_m_s, out);
+    }
+    if args.out.is_some() {
+        let fix = "add --stroke SPEED or --recording FILE";
+        return Err(Error::input("--out", "no stroke is asked for", fix));
+    }
+    let cases = Judged {
+        cases: args.cases.as_ref(),
+        shipped: shipped::HAPTIC_CASES,
+        solver: None,
+        only: &args.only,
+        json: args.json,
+        command: "haptic simulate",
+    };
+    judge(&cases, out)
 }
 
 /// Fastest stroke that has a script [m/s].
 const STROKE_MAX_M_S: f64 = 5.0;
 
-/// A stroke along the table through the middle of the cue ball on its spot.
+/// A stroke of a simulated hand.
 fn stroke(args: &SimulateArgs, speed_m_s: f64, out: &mut dyn Write) -> Result<Status, Error> {
     if !(0.05..=STROKE_MAX_M_S).contains(&speed_m_s) {
         let problem = format!("no hand strikes at {speed_m_s} m/s");
         return Err(Error::input("--stroke", problem, "write a speed from 0.05 to 5 m/s"));
     }
+    let script = HandScript::stroke(speed_m_s, PAUSE_S);
+    let ticks = (script.duration_s() / TICK_S) as u64;
+    let guide = Guide::Script(script);
+    strike(args, SimulatedDevice::new(DeviceSpec::OMNI, args.hand.model(), guide), ticks, out)
+}
+
+/// A stroke of a recorded hand.
+fn replayed(args: &SimulateArgs, path: &Path, out: &mut dyn Write) -> Result<Status, Error> {
+    let recording = load_recording(path)?;
+    let ticks = recording.readings.len() as u64;
+    strike(args, RecordedDevice::new(Arc::new(recording)), ticks, out)
+}
+
+/// A stroke along the table at the middle of the cue ball on its spot.
+fn strike(
+    args: &SimulateArgs,
+    device: impl Device,
+    ticks: u64,
+    out: &mut dyn Write,
+) -> Result<Status, Error> {
     let wrong = |error: String| Error::input("the table", error, "report this as a defect");
     let table = Table::preset("pool-9ft").map_err(|error| wrong(error.to_string()))?;
     let spot = table.bed.map(|bed| bed.head_spot()).unwrap_or_default();
     let ball = Ball::pool(BallId::CUE);
     let state = BallState::at_rest(BallId::CUE, spot.extend(POOL_RADIUS_M));
     let aim = Aim { elevation_rad: 0.06, ..Aim::default() };
-    let script = HandScript::stroke(speed_m_s, PAUSE_S);
-    let ticks = (script.duration_s() / TICK_S) as u64;
-    let hand = args.hand.model();
-    let mut rehearsal =
-        Rehearsal::new(&table, vec![(ball, state)], DeviceSpec::OMNI, hand, script, &aim)?;
+    let mut said = RecordingWriter::default();
+    let mut recording = format!("{}\n", RecordingWriter::head(&device.spec()));
+    let mut rehearsal = Rehearsal::with(&table, vec![(ball, state)], device, &aim)?;
 
     let mut rows = format!("{}\n", telemetry::COLUMNS);
     let (mut contact, mut peak_n, mut ball_m_s) = (None, 0.0_f64, 0.0_f64);
@@ -136,11 +176,20 @@ fn stroke(args: &SimulateArgs, speed_m_s: f64, out: &mut dyn Write) -> Result<St
         peak_n = peak_n.max(report.force.0.length());
         let ball = rehearsal.ball(BallId::CUE);
         ball_m_s = ball_m_s.max(ball.map_or(0.0, |ball| ball.velocity.length()));
-        rows += &telemetry::row(&report);
-        rows.push('\n');
+        if args.out.is_some() {
+            rows += &telemetry::row(&report, 0.0);
+            rows.push('\n');
+        }
+        if args.record.is_some() {
+            let StylusSample { dt, device: state, .. } = report.sample;
+            recording += &said.line(&Reading { dt, state });
+            recording.push('\n');
+        }
     }
-    if let Some(path) = &args.out {
-        write_whole(path, rows.as_bytes())?;
+    for (path, text) in [(&args.out, rows), (&args.record, recording)] {
+        if let Some(path) = path {
+            write_whole(path, text.as_bytes())?;
+        }
     }
     let struck = rehearsal.facts.iter().find_map(|fact| match fact.kind {
         FactKind::CueBallStruck { normal_speed_m_s, .. } => Some((fact.time_s, normal_speed_m_s)),

@@ -33,7 +33,7 @@ const EXACT: [(&str, RGBColor, u32); 2] = [
 const OTHERS: [RGBColor; 4] =
     [RGBColor(140, 20, 20), RGBColor(110, 60, 160), RGBColor(60, 110, 20), RGBColor(130, 110, 60)];
 
-fn failed(error: impl Display) -> Error {
+pub(super) fn failed(error: impl Display) -> Error {
     Error::Output(std::io::Error::other(format!("a figure could not be drawn: {error}")))
 }
 
@@ -48,7 +48,7 @@ pub fn file(id: &str) -> String {
 }
 
 /// The next power of ten below and above all values.
-fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+pub(super) fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (low, high) = values
         .fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
     if !(low <= high) {

@@ -5,6 +5,7 @@ mod left_out;
 mod scene;
 mod stability;
 
+use super::closed_loop;
 use super::figure;
 use super::left_out::Line;
 use super::measure::{Measured, Timed};
@@ -29,6 +30,7 @@ pub fn page(
     measured: &[Measured],
     peers: Option<&Peers>,
     table: &Table,
+    loops: &[closed_loop::Timed],
     left_out: &[Line],
     players: &Players,
     quick: bool,
@@ -45,6 +47,8 @@ pub fn page(
     }
     stability::chaos(&mut text, table);
     stability::chapter(&mut text, table);
+    say!(text, "### How stiff a haptic wall may be\n");
+    closed_loop::chapter(&mut text, loops);
     left_out::chapter(&mut text, left_out);
     beyond(&mut text, players);
     left_out::missing(&mut text, measured, quick);
@@ -75,7 +79,8 @@ fn head(text: &mut String, quick: bool, peers: bool) {
         text,
         "Errors, counters and classes are the same on every machine; processor times are this \
          one's, of one thread, and so is what was too slow. All rows are in \
-         [errors.csv](errors.csv) and [stability.csv](stability.csv). An error is the distance of \
+         [errors.csv](errors.csv), [stability.csv](stability.csv) and \
+         [closed_loop.csv](closed_loop.csv). An error is the distance of \
          a ball from where it should be, in metres, for the ball and the time where it is largest, \
          and the median over a few starts that differ a little. Runs that failed stay in the \
          tables.\n"
@@ -145,8 +150,8 @@ fn felt_walls(text: &mut String) {
          and the simulated device holds for a period. The error is the largest difference from the \
          spring's force where the stylus is, over the spring's peak. It falls with the first order \
          of the period, and so does what the stylus gains; no better integrator would help, \
-         because the force is late. Stiffer walls than those under \"the sampled spring wall\" \
-         swing up; `hapticbillard haptic simulate` finds the same limits with hands and devices.\n",
+         because the force is late. Which walls swing up stands under \"how stiff a haptic wall \
+         may be\".\n",
         DeviceSpec::OMNI.mass_kg * 1e3,
         report::SPEED_M_S,
         report::STIFFNESS_N_M,

@@ -2,9 +2,7 @@
 
 use super::measure::budget;
 use hapticbillard::physics::{Integrator, PhysicsError, PhysicsSettings, Profile};
-use hapticbillard::report::{
-    self, Cell, Form, Growth, HertzRow, Hop, Limit, Method, RestRow, WallRow,
-};
+use hapticbillard::report::{self, Cell, Form, Growth, HertzRow, Hop, Limit, Method, RestRow};
 use hapticbillard_actors::error::Error;
 use indicatif::ProgressBar;
 
@@ -36,8 +34,6 @@ pub struct Table {
     pub hops: Vec<(Form, f64, Hop)>,
     /// What the solver itself makes of the drop, by integrator, profile and step.
     pub solver_hops: Vec<(Integrator, Profile, f64, Hop)>,
-    /// How stiff a sampled wall may be.
-    pub wall: Vec<WallRow>,
     /// How disturbances of breaks grow.
     pub growth: Vec<Growth>,
     /// What breaks have in common.
@@ -126,7 +122,6 @@ pub fn measure(quick: bool, bar: &ProgressBar) -> Result<Table, Error> {
         hertz: report::hertz_rows(HERTZ_M_S),
         hops: hops.collect(),
         solver_hops: solver_hops()?,
-        wall: report::wall_rows(),
         growth,
         spread,
         racks,

@@ -17,6 +17,9 @@ pub struct MouseFeel {
     /// Reports of a mouse come in bursts; the intent goes to where they say with this time
     /// constant [s].
     pub smooth_s: Seconds,
+    /// The hand lags the mouse, and so does its finger on the front button when it lets go [s]:
+    /// a stroke that the mouse has made is not cut short.
+    pub finger_s: Seconds,
 }
 
 impl Default for MouseFeel {
@@ -26,6 +29,7 @@ impl Default for MouseFeel {
             m_per_notch: 0.004,
             box_m: DVec3::new(0.17, 0.13, 0.09),
             smooth_s: 0.015,
+            finger_s: 0.12,
         }
     }
 }
@@ -35,20 +39,55 @@ impl Default for MouseFeel {
 #[derive(Debug, Clone)]
 pub struct MouseHand {
     feel: MouseFeel,
+    home: DVec3,
     wanted: DVec3,
     shown: DVec3,
+    /// What is held at the mouse.
+    held: Buttons,
+    /// What the hand holds: the front button a little longer.
     buttons: Buttons,
+    /// How long the finger still holds what was let go [s].
+    lingers_s: Seconds,
+    /// Then the hand draws back.
+    draws_back: bool,
 }
 
 impl MouseHand {
     /// A hand in the middle of the workspace.
     pub fn new(feel: MouseFeel) -> Self {
-        MouseHand { feel, wanted: DVec3::ZERO, shown: DVec3::ZERO, buttons: Buttons::default() }
+        let home = DVec3::ZERO;
+        let buttons = Buttons::default();
+        MouseHand {
+            feel,
+            home,
+            wanted: home,
+            shown: home,
+            held: buttons,
+            buttons,
+            lingers_s: 0.0,
+            draws_back: false,
+        }
+    }
+
+    /// The same, beginning at a place [m].
+    #[must_use]
+    pub fn starting_at(self, place: DVec3) -> Self {
+        MouseHand { home: place, wanted: place, shown: place, ..self }
+    }
+
+    /// Goes back to where it began.
+    pub fn go_home(&mut self) {
+        self.wanted = self.home;
+    }
+
+    /// Draws back in depth to where it began, as soon as the finger has let go.
+    pub fn draw_back(&mut self) {
+        self.draws_back = true;
     }
 
     /// The mouse moved, in heights of the window.
     pub fn moved(&mut self, right: f64, up: f64) {
-        let way = if self.buttons.has(Buttons::FRONT) {
+        let way = if self.held.has(Buttons::FRONT) {
             // Pushing the mouse away pushes the cue forward; sideways nothing.
             DVec3::new(0.0, 0.0, -up)
         } else {
@@ -64,7 +103,10 @@ impl MouseHand {
 
     /// What is held: the left button of the mouse is the front one, the right the rear one.
     pub fn hold(&mut self, buttons: Buttons) {
-        self.buttons = buttons;
+        let lets_go = self.held.has(Buttons::FRONT) && !buttons.has(Buttons::FRONT);
+        self.held = buttons;
+        self.lingers_s = if lets_go { self.feel.finger_s } else { 0.0 };
+        self.buttons = if lets_go { buttons.with(Buttons::FRONT) } else { buttons };
     }
 
     fn go(&mut self, way: DVec3) {
@@ -77,6 +119,13 @@ impl MouseHand {
     pub(super) fn step(&mut self, dt: Seconds) {
         let share = -libm::expm1(-dt / self.feel.smooth_s);
         self.shown += (self.wanted - self.shown) * share;
+        self.lingers_s = (self.lingers_s - dt).max(0.0);
+        if self.lingers_s == 0.0 {
+            self.buttons = self.held;
+            if std::mem::take(&mut self.draws_back) {
+                self.wanted.z = self.home.z;
+            }
+        }
     }
 
     pub(super) fn intent(&self) -> Intent {

@@ -132,3 +132,15 @@ fn system(spec: &DeviceSpec, hand: HandModel) -> Linear {
     }
     system
 }
+
+/// One axis of a device in a hand over a period with a held force, x⁺ = Φ x + Γ F: Φ by rows, Γ,
+/// and how many of the states there are. The first is the place of the handle.
+pub(crate) fn discrete(
+    spec: &DeviceSpec,
+    hand: HandModel,
+    period_s: Seconds,
+) -> ([[f64; STATES]; STATES], [f64; STATES], usize) {
+    let step = system(spec, hand).step(period_s);
+    let states = if matches!(hand, HandModel::Grip { .. }) { 4 } else { 2 };
+    (step.state, step.force, states)
+}

@@ -15,6 +15,8 @@ impl Human {
             help: self.help,
             is_practice: self.is_practice,
             cue_ball: self.cue_ball(),
+            look: self.camera.looking(self.is_bird),
+            overlay: self.overlay,
             ..HumanView::default()
         };
         match &self.stage {

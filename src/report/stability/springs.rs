@@ -155,7 +155,7 @@ fn radius(integrator: Integrator, ratio: f64, product: f64) -> f64 {
 }
 
 /// Largest absolute value of the eigenvalues of a matrix.
-pub(super) fn largest_eigenvalue([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
+fn largest_eigenvalue([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
     let (trace, determinant) = (a + d, a * d - b * c);
     let inner = 0.25 * trace * trace - determinant;
     if inner < 0.0 { determinant.sqrt() } else { 0.5 * trace.abs() + inner.sqrt() }

@@ -3,6 +3,7 @@
 use super::bench::{Bench, bilateral, spec};
 use crate::haptic::DeviceSpec;
 use crate::haptic::simulated::{HandModel, HandScript};
+use crate::units::Seconds;
 use crate::validation::error::{Trouble, unsupported};
 use crate::validation::observed::Observations;
 use crate::validation::setup::Setup;
@@ -11,8 +12,8 @@ use glam::DVec3;
 /// Windows in which the size of the motion is compared, as parts of the run.
 const EARLY: (f64, f64) = (0.35, 0.5);
 const LATE: (f64, f64) = (0.85, 1.0);
-/// Length of a run [s], and its least length [ticks].
-const RUN_S: f64 = 12.0;
+/// Length of a case's run [s], and the least length of any [ticks].
+const RUN_S: Seconds = 12.0;
 const TICKS_MIN: u64 = 2_000;
 /// A motion this many times larger than the first has run away.
 const RUNAWAY: f64 = 1e6;
@@ -27,8 +28,8 @@ pub(in crate::validation) fn stability_limit(setup: &Setup<'_>) -> Result<Observ
     let (spec, hand) = (spec(setup)?, setup.hand()?);
     let (stiffness, damping) = (setup.number_or_zero("K_N_m")?, setup.number_or_zero("B_Ns_m")?);
     let limit = match setup.word("limit_of")?.as_str() {
-        "K_N_m" => limit(|k| dies_away(spec, hand, k, damping)),
-        "B_Ns_m" => limit(|b| dies_away(spec, hand, stiffness, b)),
+        "K_N_m" => limit(|k| dies_away(spec, hand, k, damping, RUN_S)),
+        "B_Ns_m" => limit(|b| dies_away(spec, hand, stiffness, b, RUN_S)),
         other => return unsupported(format!("no limit of '{other}'")),
     };
     let mut seen = Observations::default();
@@ -36,8 +37,14 @@ pub(in crate::validation) fn stability_limit(setup: &Setup<'_>) -> Result<Observ
     Ok(seen)
 }
 
+/// The stiffest bilateral wall without damping at which a motion dies away, as runs of `run_s` show
+/// it [N/m].
+pub(crate) fn stiffest_wall(spec: DeviceSpec, hand: HandModel, run_s: Seconds) -> Option<f64> {
+    limit(|stiffness| dies_away(spec, hand, stiffness, 0.0, run_s))
+}
+
 /// The first loss of stability on a rising scale, then by bisection.
-fn limit(is_stable: impl Fn(f64) -> bool) -> Option<f64> {
+pub(crate) fn limit(is_stable: impl Fn(f64) -> bool) -> Option<f64> {
     let (mut low, mut high) = (0.0, 1.0);
     while is_stable(high) {
         (low, high) = (high, high * CLIMB);
@@ -53,11 +60,17 @@ fn limit(is_stable: impl Fn(f64) -> bool) -> Option<f64> {
 }
 
 /// Whether a device that was pushed is slower late than early.
-fn dies_away(spec: DeviceSpec, hand: HandModel, stiffness: f64, damping: f64) -> bool {
+fn dies_away(
+    spec: DeviceSpec,
+    hand: HandModel,
+    stiffness: f64,
+    damping: f64,
+    run_s: Seconds,
+) -> bool {
     let script = HandScript::drawn(DVec3::ZERO, Vec::new());
     let mut bench = Bench::new(spec, hand, script, bilateral(stiffness, damping));
     bench.device = bench.device.pushed(DVec3::ZERO, DVec3::X * 0.01);
-    let ticks = ((RUN_S / spec.period_s()) as u64).max(TICKS_MIN);
+    let ticks = ((run_s / spec.period_s()) as u64).max(TICKS_MIN);
     let (mut first, mut early, mut late) = (0.01_f64, 0.0_f64, 0.0_f64);
     for tick in 0..ticks {
         bench.tick();

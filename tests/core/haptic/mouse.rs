@@ -80,3 +80,23 @@ fn pushing_the_mouse_with_the_left_button_held_strikes() {
     let ball = desk.ball(BallId::CUE).unwrap();
     assert!(ball.velocity.x > 1.0 && ball.velocity.y.abs() < 0.05, "{}", ball.velocity);
 }
+
+#[test]
+fn a_quick_stroke_is_not_cut_short_by_letting_go_and_the_hand_draws_back_after_it() {
+    let mut desk = desk();
+    let start = DVec3::new(0.0, 0.0, 0.033);
+    let hand = MouseHand::new(MouseFeel::default()).starting_at(start);
+    *desk.device.guide_mut() = Guide::Mouse(hand);
+    ticks(&mut desk, 700);
+    mouse(&mut desk).hold(Buttons::FRONT);
+    // Through the ball, and the button is up before the hand has got anywhere.
+    mouse(&mut desk).moved(0.0, 0.25);
+    ticks(&mut desk, 5);
+    mouse(&mut desk).hold(Buttons::default());
+    mouse(&mut desk).draw_back();
+    ticks(&mut desk, 900);
+    let is_strike = |fact: &&Fact| matches!(fact.kind, FactKind::CueBallStruck { .. });
+    assert_eq!(desk.facts.iter().filter(is_strike).count(), 1);
+    assert!(desk.device.position().distance(start) < 0.002, "{}", desk.device.position());
+    assert!(!desk.servo.report().sample.stabilised);
+}

@@ -16,6 +16,9 @@ fn the_section_says_what_is_asked_for() {
     let haptic = parse(text).unwrap().haptic.unwrap();
     assert_eq!(haptic.device, HapticDevice::Recorded("s.jsonl".into()));
     assert_eq!((haptic.core, haptic.priority, haptic.spin_us), (Some(1), Some(80), Some(50)));
+    assert!(
+        !haptic.overlay && parse("[haptic]\noverlay = true\n").unwrap().haptic.unwrap().overlay
+    );
     for name in [
         "auto",
         "simulated",
@@ -23,6 +26,7 @@ fn the_section_says_what_is_asked_for() {
         "openhaptics",
         "openhaptics:Default PHANToM",
         "haply",
+        "haply:192.168.0.7:10001",
         "none",
         "recorded:s.jsonl",
     ] {
@@ -31,7 +35,7 @@ fn the_section_says_what_is_asked_for() {
         assert_eq!(device.name(), name);
         assert_eq!(HapticDevice::named(name), Some(device));
     }
-    for name in ["", ":", "phantom", "mouse:", "mouse:x", "openhaptics:", "recorded:"] {
+    for name in ["", ":", "phantom", "mouse:", "mouse:x", "openhaptics:", "recorded:", "haply:"] {
         assert_eq!(HapticDevice::named(name), None, "{name}");
     }
 }
@@ -57,13 +61,22 @@ fn what_is_wrong_in_it_is_said_in_one_exact_line() {
         "device = \"openhaptics:\": names no device; write device = \"openhaptics\" for the only \
          one",
     );
+    for address in ["", "localhost", ":10001", "localhost:0", "localhost:65536"] {
+        check(
+            &format!("[haptic]\ndevice = \"haply:{address}\"\n"),
+            &format!(
+                "device = \"haply:{address}\": names no HOST:PORT; write for example device = \
+                 \"haply:localhost:10001\""
+            ),
+        );
+    }
     check(
         "[haptic]\npriority = 0\n",
         "priority = 0: expected a whole number from 1 to 99; write for example priority = 1",
     );
     check(
         "[haptic]\nforce = 9\n",
-        "force = 9: haptic has the keys device, core, priority, spin_us; remove this key",
+        "force = 9: haptic has the keys device, core, priority, spin_us, overlay; remove this key",
     );
 }
 

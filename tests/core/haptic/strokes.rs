@@ -144,7 +144,7 @@ fn the_same_stroke_gives_the_same_bits() {
     let told = || {
         let mut rig = drawn_back(HandModel::FIRM, &aim());
         *rig.device.guide_mut() = Guide::Script(stroke(0.9, 0.000_3));
-        (0..300).map(|_| telemetry::row(&rig.tick().unwrap())).collect::<Vec<_>>()
+        (0..300).map(|_| telemetry::row(&rig.tick().unwrap(), 0.0)).collect::<Vec<_>>()
     };
     assert_eq!(told(), told());
 }

@@ -1,5 +1,7 @@
 //! Who stands in for whom.
 
+pub mod haply_service;
+
 use hapticbillard::ai::{Player, PlayerSettings};
 use hapticbillard::ball::POOL_RADIUS_M;
 use hapticbillard::events::{Source, Topics};

@@ -140,7 +140,6 @@ pub fn chapter(text: &mut String, table: &Table) {
     hertz(text, table);
     rest(text, table);
     hop(text, table);
-    wall(text, table);
 }
 
 /// What the table does not explain by itself: the case, what one sees there, and why.
@@ -298,31 +297,4 @@ fn hop(text: &mut String, table: &Table) {
          because push and step shrink together. Written by place and velocity, or with the last \
          place written anew, as the solver does under the standard laws, the hop is right.\n"
     );
-}
-
-fn wall(text: &mut String, table: &Table) {
-    say!(text, "### The sampled spring wall\n");
-    say!(
-        text,
-        "What a stylus feels as a wall is a spring whose force is computed at a rate and held in \
-         between. The held force is late and gives energy. A stylus of 45 g with 0.5 N s/m of \
-         friction swings up from these stiffnesses on; in any hand the wall is safe only up to 2 b \
-         / T (Colgate and Schenkel 1997).\n"
-    );
-    say!(
-        text,
-        "| rate [Hz] | swings up from [N/m], measured | theory | safe in any hand up to [N/m] |"
-    );
-    say!(text, "|---|---|---|---|");
-    for row in &table.wall {
-        say!(
-            text,
-            "| {} | {:.0} | {:.0} | {:.0} |",
-            row.rate_hz,
-            row.measured_n_m,
-            row.theory_n_m,
-            row.passive_n_m
-        );
-    }
-    say!(text, "");
 }
