@@ -35,6 +35,7 @@ impl MouseSplit {
                 self.held.key(*key, *down);
                 Reader::Eye
             }
+            RawInput::Picked { .. } => Reader::Eye,
             RawInput::FocusLost => {
                 self.held.forget();
                 Reader::Both

@@ -43,7 +43,7 @@ pub fn aimed_by_stylus(
         let elevation_rad = report.elevation_rad;
         let aim = Aim { azimuth_rad, elevation_rad, side_offset, height_offset };
         let level = direction.truncate().normalize_or_zero();
-        let met = first_met(world, table.bed.as_ref(), centre, level);
+        let met = first_met(world, table.bed.as_ref(), BallId::CUE, centre, level);
         let is_stroke = report.sample.stabilised;
         Some(HumanView {
             mode: if is_stroke { HumanMode::Stroking } else { HumanMode::Aiming },
