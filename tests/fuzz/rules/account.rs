@@ -135,7 +135,7 @@ impl Account {
         let may_change = is_racked || self.groups == Some(Groups::Open);
         require(may_change || verdict.groups == self.groups, "groups changed")?;
         self.groups = verdict.groups;
-        // Of the 8 on the break, and of carom balls that touch, a player chooses whether they return.
+        // Of the 8 on the break, and of carom balls that touch, a player chooses if they return.
         let is_chosen = |choice: &Choice| {
             matches!(
                 choice,
