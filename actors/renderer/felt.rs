@@ -82,7 +82,7 @@ impl FeltScreen {
             self.leads = view.mode == HumanMode::HoldingStylus;
         }
         let is_elsewhere = match view.mode {
-            HumanMode::Placing => true,
+            HumanMode::Placing | HumanMode::Choosing => true,
             HumanMode::Watching => self.setup.has_turns,
             HumanMode::Aiming
             | HumanMode::HoldingStylus
