@@ -227,7 +227,8 @@ fn hear(
     }
 }
 
-const CHOICES: [Choice; 11] = [
+/// Everything that somebody may say to a choice.
+pub const CHOICES: [Choice; 11] = [
     Choice::Accept,
     Choice::CueInHandKitchen,
     Choice::RerackAndBreak,
