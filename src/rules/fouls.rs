@@ -44,10 +44,12 @@ pub fn no_contact(_: &State, shot: &Shot) -> bool {
     shot.first_contacts.is_empty() && !is_only_a_touch
 }
 
-/// Foul: after the first contact no ball was pocketed, driven off the table or driven to a rail. A
-/// ball that already touched a rail is not driven to it. Without a contact that is the foul.
+/// Foul: no object ball fell, and after the first contact no ball was pocketed, driven off the table
+/// or driven to a rail. A ball that already touched a rail is not driven to it. Without a contact
+/// that is the foul.
 pub fn no_rail(_: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty() && !shot.is_driven_after_contact()
+    let has_met = !shot.first_contacts.is_empty();
+    has_met && shot.pocketed.is_empty() && !shot.is_driven_after_contact()
 }
 
 /// Foul: an object ball is off the table.

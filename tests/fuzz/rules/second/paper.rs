@@ -92,7 +92,7 @@ fn fouls(state: &State, seen: Seen<'_>) -> Vec<Foul> {
     [
         (Foul::Scratch, seen.fell(BallId::CUE)),
         (Foul::CueOff, seen.left(BallId::CUE)),
-        (Foul::NoContact, first.is_empty()),
+        (Foul::NoContact, seen.tips() > 0 && first.is_empty()),
         (Foul::WrongFirst, is_wrong_first),
         (Foul::BallOff, seen.lost_an_object_ball()),
         (Foul::DoubleHit, seen.tips() > 1),

@@ -3,7 +3,7 @@
 use super::expected::Expected;
 use super::seen::{Met, Seen};
 use hapticbillard::events::{
-    BallInHand, Call, CallKind, Choice, Fact, Foul, Group, Groups, Racked, TurnAfter, Zone,
+    BallInHand, Call, CallKind, Choice, Fact, Foul, Group, Groups, Racked, Zone,
 };
 use hapticbillard::ids::BallId;
 use hapticbillard::rules::State;
@@ -23,6 +23,9 @@ fn on_the_break(state: &State, seen: Seen<'_>) -> Expected {
     let open = Groups::Open;
     let fouls = fouls(state, seen, |_| true);
     let eight_fell = seen.fell(BallId::EIGHT);
+    // Before any choice the cue ball is in hand only if it is gone.
+    let is_gone = seen.fell(BallId::CUE) || seen.left(BallId::CUE);
+    let in_hand = if is_gone { BallInHand::Kitchen } else { BallInHand::None };
 
     if eight_fell && fouls.is_empty() {
         // "The 8 falls, no foul": the breaker has it spotted and goes on, or breaks again.
@@ -36,15 +39,13 @@ fn on_the_break(state: &State, seen: Seen<'_>) -> Expected {
         return Expected::plays("break: the 8 and a foul", breaker, opponent, open)
             .fouled(fouls)
             .spots_eight()
-            .in_hand(BallInHand::Kitchen)
+            .in_hand(in_hand)
             .chooses(opponent, &[Choice::Respot8CueInHandKitchen, Choice::Rebreak]);
     }
     if !fouls.is_empty() {
-        let is_gone = seen.fell(BallId::CUE) || seen.left(BallId::CUE);
         let next = if is_gone {
             // "Scratch, no 8": the opponent has the cue ball in hand behind the head string.
-            Expected::plays("break: scratch", breaker, opponent, open)
-                .in_hand(BallInHand::Kitchen)
+            Expected::plays("break: scratch", breaker, opponent, open).in_hand(in_hand)
         } else {
             // "Object ball off the table", "any other foul": the opponent accepts the table, or
             // takes the cue ball in hand behind the head string.
@@ -100,42 +101,36 @@ fn later(state: &State, call: Option<&Call>, seen: Seen<'_>) -> Expected {
         };
     }
 
-    let result = if !fouls.is_empty() {
-        // 3: a foul passes the turn, with the cue ball in hand anywhere. Nothing is spotted.
-        Expected::plays("foul", shooter, opponent, groups)
+    // 3: a foul passes the turn, with the cue ball in hand anywhere. Nothing is spotted. In the order
+    // of the table that comes before a stalemate: nobody fouls his way out of one.
+    if !fouls.is_empty() {
+        return Expected::plays("foul", shooter, opponent, groups)
             .fouled(fouls)
-            .in_hand(BallInHand::Anywhere)
-    } else if call == Some(&Call::Kind(CallKind::Safety)) {
-        // 4: a called safety passes the turn, whatever fell.
-        Expected::plays("safety", shooter, opponent, groups)
-    } else if let Some(Call::Ball { ball, .. }) = call
+            .in_hand(BallInHand::Anywhere);
+    }
+    // 4: a called safety passes the turn, whatever fell.
+    let is_safety = call == Some(&Call::Kind(CallKind::Safety));
+    // 5: the called ball in the called pocket. On an open table its group is the shooter's.
+    if let Some(Call::Ball { ball, .. }) = call
         && called(*ball)
     {
-        // 5: the called ball in the called pocket. On an open table its group is the shooter's.
         let now = match (groups, Group::of(*ball)) {
             (Groups::Open, Some(group)) => Groups::assigned(shooter, group),
             _ => groups,
         };
-        Expected::plays("called ball", shooter, shooter, now)
-    } else {
-        // 6: otherwise it passes as it lies.
-        Expected::plays("nothing called fell", shooter, opponent, groups)
-    };
-
-    // 1.12, 3.11: a stalemate. The original breaker breaks again.
-    let is_dry = seen.fallen().is_empty() && !state.pocketed_this_turn;
-    if result.turn == TurnAfter::Pass
-        && is_dry
-        && state.dry_turns + 1 >= STALEMATE_TURNS
-    {
-        return Expected {
-            rack: Some(Racked::All),
-            ..Expected::plays("stalemate", shooter, state.breaker, Groups::Open)
-                .fouled(result.fouls)
-                .in_hand(BallInHand::Kitchen)
-        };
+        return Expected::plays("called ball", shooter, shooter, now);
     }
-    result
+    // Stalemate (1.12, 3.11): so many turns without a pocketed ball, and the original breaker breaks
+    // again.
+    let is_dry = seen.fallen().is_empty() && !state.pocketed_this_turn;
+    if is_dry && state.dry_turns + 1 >= STALEMATE_TURNS {
+        let again = Expected::plays("stalemate", shooter, state.breaker, Groups::Open)
+            .in_hand(BallInHand::Kitchen);
+        return Expected { rack: Some(Racked::All), ..again };
+    }
+    // 6: otherwise it passes as it lies.
+    let row = if is_safety { "safety" } else { "nothing called fell" };
+    Expected::plays(row, shooter, opponent, groups)
 }
 
 /// Whether the shooter had no ball of the own group left before the shot. On an open table all
@@ -169,14 +164,14 @@ fn fouls(state: &State, seen: Seen<'_>, may_be_first: impl Fn(BallId) -> bool) -
     let is_right = |met: &&Met| may_be_first(met.0);
     let right: Vec<Met> = first.iter().filter(is_right).copied().collect();
     // Where several are right, that which breaks no rule counts as well.
-    let counted = if right.is_empty() { &first } else { &right };
-    let all_in_kitchen = is_met && counted.iter().all(|met| met.1);
+    let _counted = if right.is_empty() { &first } else { &right };
+    let all_in_kitchen = is_met && first.iter().any(|met| met.1);
     let from_kitchen = state.ball_in_hand == BallInHand::Kitchen;
     let needs_rail = !state.is_break() && seen.fallen().is_empty();
     [
         (Foul::Scratch, seen.fell(BallId::CUE)),
         (Foul::CueOff, seen.left(BallId::CUE)),
-        (Foul::NoContact, !is_met),
+        (Foul::NoContact, seen.tips() > 0 && !is_met),
         (Foul::WrongFirst, is_met && right.is_empty()),
         (Foul::NoRail, is_met && needs_rail && !seen.rail_after_contact()),
         (Foul::BallOff, seen.lost_an_object_ball()),
