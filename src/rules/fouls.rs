@@ -1,8 +1,9 @@
 //! Fouls that several games know, one function each, with the rule's sentence.
 
-use super::shot::Shot;
+use super::shot::{FirstContact, Shot};
 use super::state::State;
 use crate::events::{ByPlayer, Foul};
+use crate::ids::BallId;
 use smallvec::SmallVec;
 
 /// Whether a shot broke one rule.
@@ -79,9 +80,16 @@ pub fn bad_placement(state: &State, shot: &Shot) -> bool {
 }
 
 /// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
-/// behind it too, and the cue ball had not crossed it before.
-pub fn kitchen(state: &State, shot: &Shot) -> bool {
-    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first()
+/// behind it too, and the cue ball had not crossed it before. Of several balls met at the same time,
+/// one that breaks no rule counts as the first.
+pub fn kitchen(state: &State, shot: &Shot, may_be_first: fn(&State, BallId) -> bool) -> bool {
+    let met = &shot.first_contacts;
+    let is_right = |met: &&FirstContact| may_be_first(state, met.ball);
+    let is_foul = match met.iter().any(|met| is_right(&met)) {
+        true => met.iter().filter(is_right).all(|met| met.in_kitchen),
+        false => !met.is_empty() && met.iter().all(|met| met.in_kitchen),
+    };
+    state.is_in_kitchen() && is_foul && !shot.crossed_head_first()
 }
 
 /// Foul: a ball still moved, or spun, when the stroke began.

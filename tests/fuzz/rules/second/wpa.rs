@@ -147,12 +147,12 @@ fn is_cleared(state: &State) -> bool {
 /// Row 1, "wrong first", turned round. Open: any but the 8, unless that is all there is. Assigned:
 /// an own ball; once they are gone, the 8.
 fn is_on(state: &State, ball: BallId) -> bool {
-    if is_cleared(state) {
-        return ball == BallId::EIGHT;
-    }
-    match state.groups.unwrap_or_default().of(state.player) {
-        None => ball != BallId::EIGHT,
-        Some(own) => Group::of(ball) == Some(own),
+    let own = state.groups.unwrap_or_default().of(state.player);
+    match (own, is_cleared(state)) {
+        (None, false) => ball != BallId::EIGHT,
+        (None, true) => true,
+        (Some(own), false) => Group::of(ball) == Some(own),
+        (Some(_), true) => ball == BallId::EIGHT,
     }
 }
 
@@ -163,9 +163,8 @@ fn fouls(state: &State, seen: Seen<'_>, may_be_first: impl Fn(BallId) -> bool) -
     // An exact tie: the legal ball counts as the first one.
     let is_right = |met: &&Met| may_be_first(met.0);
     let right: Vec<Met> = first.iter().filter(is_right).copied().collect();
-    // Where several are right, that which breaks no rule counts as well.
-    let _counted = if right.is_empty() { &first } else { &right };
-    let all_in_kitchen = is_met && first.iter().any(|met| met.1);
+    let counted = if right.is_empty() { &first } else { &right };
+    let all_in_kitchen = is_met && counted.iter().all(|met| met.1);
     let from_kitchen = state.ball_in_hand == BallInHand::Kitchen;
     let needs_rail = !state.is_break() && seen.fallen().is_empty();
     [
