@@ -83,7 +83,8 @@ impl Participant for Shadow {
                 }
                 _ => Ok(()),
             };
-            result.unwrap_or_else(|problem| panic!("{}, match {}: {problem}", self.kind, self.seed));
+            result
+                .unwrap_or_else(|problem| panic!("{}, match {}: {problem}", self.kind, self.seed));
         }
         Outcome::default()
     }

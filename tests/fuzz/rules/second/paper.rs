@@ -1,7 +1,7 @@
 //! The eight-ball of the 2009 paper, section 5.2, with the conventions that fix what it leaves open.
 
 use super::expected::Expected;
-use super::seen::Seen;
+use super::seen::{Seen, may_lie};
 use hapticbillard::events::{BallInHand, Call, Fact, Foul, Group, Groups, TurnAfter};
 use hapticbillard::ids::BallId;
 use hapticbillard::rules::State;
@@ -97,6 +97,12 @@ fn fouls(state: &State, seen: Seen<'_>) -> Vec<Foul> {
         (Foul::BallOff, seen.lost_an_object_ball()),
         (Foul::DoubleHit, seen.tips() > 1),
         (Foul::TouchedBall, seen.touched()),
+        // The list leaves it out, but "the break is played from behind the head string" means little
+        // if it is not.
+        (
+            Foul::BadPlacement,
+            seen.placed().is_some_and(|place| !may_lie(state.ball_in_hand, place)),
+        ),
     ]
     .into_iter()
     .filter_map(|(foul, is_committed)| is_committed.then_some(foul))

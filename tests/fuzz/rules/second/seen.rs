@@ -1,7 +1,7 @@
 //! Questions to the facts of one shot. Each looks through the whole list again; nothing is summed up
 //! in between, so that what sums up in the program is checked with the rest.
 
-use hapticbillard::events::{Fact, FactKind, Zone};
+use hapticbillard::events::{BallInHand, Fact, FactKind, Zone};
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use std::collections::BTreeSet;
 
@@ -54,8 +54,7 @@ impl Seen<'_> {
     /// Object balls driven to a rail: an onset at a cushion, a pocket, or over the edge.
     pub fn object_balls_to_rails(&self) -> usize {
         let object = |ball: BallId| (ball != BallId::CUE).then_some(ball);
-        let driven: BTreeSet<BallId> =
-            self.kinds().filter_map(driven).filter_map(object).collect();
+        let driven: BTreeSet<BallId> = self.kinds().filter_map(driven).filter_map(object).collect();
         driven.len()
     }
 
@@ -87,9 +86,8 @@ impl Seen<'_> {
 
     /// How often the tip met the cue ball.
     pub fn tips(&self) -> usize {
-        let on_cue = |kind: &FactKind| {
-            matches!(kind, FactKind::CueBallStruck { ball: BallId::CUE, .. })
-        };
+        let on_cue =
+            |kind: &FactKind| matches!(kind, FactKind::CueBallStruck { ball: BallId::CUE, .. });
         self.kinds().filter(on_cue).count()
     }
 
@@ -153,4 +151,14 @@ fn cue_meets(kind: &FactKind) -> Option<Met> {
         FactKind::BallsCollided { a, b: BallId::CUE, in_kitchen, .. } => Some((a, in_kitchen)),
         _ => None,
     }
+}
+
+/// The table of what decides a rule, "placement": it could be put down, and where it may lie.
+pub fn may_lie(in_hand: BallInHand, (zone, ok): (Zone, bool)) -> bool {
+    let is_inside = match in_hand {
+        BallInHand::Anywhere => true,
+        BallInHand::Kitchen => zone == Zone::Kitchen,
+        BallInHand::None | BallInHand::D => false,
+    };
+    ok && is_inside
 }

@@ -84,9 +84,7 @@ impl Watched {
         met.shots += 1;
         *met.rows.entry(expected.row).or_default() += 1;
 
-        let is_pot = |fact: &Fact| {
-            matches!(fact.kind, FactKind::BallPocketed { ball, .. } if ball != BallId::CUE)
-        };
+        let is_pot = |fact: &Fact| matches!(fact.kind, FactKind::BallPocketed { ball, .. } if ball != BallId::CUE);
         if facts.iter().any(is_pot) {
             self.dry = (0, true);
         }
@@ -100,12 +98,7 @@ impl Watched {
     }
 
     /// The referee hears a command; of a choice, what follows is looked at.
-    pub fn obey(
-        &mut self,
-        source: Source,
-        command: &Command,
-        met: &mut Met,
-    ) -> Result<(), String> {
+    pub fn obey(&mut self, source: Source, command: &Command, met: &mut Met) -> Result<(), String> {
         met.events += 1;
         let before = self.referee.state().clone();
         let phase = self.referee.phase();

@@ -1,9 +1,9 @@
 //! Eight-ball of the WPA, from the tables of its text alone. Numbers are those of the rule book.
 
 use super::expected::Expected;
-use super::seen::{Met, Seen};
+use super::seen::{Met, Seen, may_lie};
 use hapticbillard::events::{
-    BallInHand, Call, CallKind, Choice, Fact, Foul, Group, Groups, Racked, Zone,
+    BallInHand, Call, CallKind, Choice, Fact, Foul, Group, Groups, Racked,
 };
 use hapticbillard::ids::BallId;
 use hapticbillard::rules::State;
@@ -110,9 +110,12 @@ fn later(state: &State, call: Option<&Call>, seen: Seen<'_>) -> Expected {
     }
     // 4: a called safety passes the turn, whatever fell.
     let is_safety = call == Some(&Call::Kind(CallKind::Safety));
-    // 5: the called ball in the called pocket. On an open table its group is the shooter's.
+    // 5: the called ball in the called pocket. On an open table its group is the shooter's. The row
+    // says nothing of a called ball of the opponent's; it is read as "an own ball is called".
+    let own = groups.of(shooter);
     if let Some(Call::Ball { ball, .. }) = call
         && called(*ball)
+        && (own.is_none() || own == Group::of(*ball))
     {
         let now = match (groups, Group::of(*ball)) {
             (Groups::Open, Some(group)) => Groups::assigned(shooter, group),
@@ -177,7 +180,10 @@ fn fouls(state: &State, seen: Seen<'_>, may_be_first: impl Fn(BallId) -> bool) -
         (Foul::DoubleHit, seen.tips() > 1),
         (Foul::Push, seen.pushed()),
         (Foul::TouchedBall, seen.touched()),
-        (Foul::BadPlacement, seen.placed().is_some_and(|place| !is_allowed(state, place))),
+        (
+            Foul::BadPlacement,
+            seen.placed().is_some_and(|place| !may_lie(state.ball_in_hand, place)),
+        ),
         (Foul::Kitchen, from_kitchen && all_in_kitchen && !seen.crossed_in_time()),
         (Foul::Moving, seen.struck_too_soon()),
         (Foul::OutOfTurn, seen.struck_by_other_than(state.player)),
@@ -185,14 +191,4 @@ fn fouls(state: &State, seen: Seen<'_>, may_be_first: impl Fn(BallId) -> bool) -
     .into_iter()
     .filter_map(|(foul, is_committed)| is_committed.then_some(foul))
     .collect()
-}
-
-/// The table of what decides a rule, "placement": where it could be put down, and may.
-fn is_allowed(state: &State, (zone, ok): (Zone, bool)) -> bool {
-    let is_inside = match state.ball_in_hand {
-        BallInHand::Anywhere => true,
-        BallInHand::Kitchen => zone == Zone::Kitchen,
-        BallInHand::None | BallInHand::D => false,
-    };
-    ok && is_inside
 }
