@@ -21,7 +21,8 @@ pub fn paper_eight_ball(state: &State, _: Option<&Call>, facts: &[Fact]) -> Expe
         // The 8 wins only if the own group was gone before the shot and the shot is no foul;
         // otherwise, and off the table, it loses.
         let mut faults = fouls;
-        if !has_right_to_eight(state) {
+        // Off the table it is lost in any case, early or not.
+        if seen.fell(BallId::EIGHT) && !has_right_to_eight(state) {
             faults.push(Foul::EightEarly);
         }
         return if faults.is_empty() {
