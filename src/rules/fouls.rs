@@ -45,9 +45,9 @@ pub fn no_contact(_: &State, shot: &Shot) -> bool {
     shot.first_contacts.is_empty() && !is_only_a_touch
 }
 
-/// Foul: no object ball fell, and after the first contact no ball was pocketed, driven off the table
-/// or driven to a rail. A ball that already touched a rail is not driven to it. Without a contact
-/// that is the foul.
+/// Foul: no object ball fell, and after the first contact no ball was pocketed, driven off the
+/// table or driven to a rail. A ball that already touched a rail is not driven to it. Without a
+/// contact that is the foul.
 pub fn no_rail(_: &State, shot: &Shot) -> bool {
     let has_met = !shot.first_contacts.is_empty();
     has_met && shot.pocketed.is_empty() && !shot.is_driven_after_contact()
@@ -80,8 +80,8 @@ pub fn bad_placement(state: &State, shot: &Shot) -> bool {
 }
 
 /// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
-/// behind it too, and the cue ball had not crossed it before. Of several balls met at the same time,
-/// one that breaks no rule counts as the first.
+/// behind it too, and the cue ball had not crossed it before. Of several balls met at the same
+/// time, one that breaks no rule counts as the first.
 pub fn kitchen(state: &State, shot: &Shot, may_be_first: fn(&State, BallId) -> bool) -> bool {
     let met = &shot.first_contacts;
     let is_right = |met: &&FirstContact| may_be_first(state, met.ball);
