@@ -216,8 +216,8 @@ fn said_by_chance(watched: &Watched, rng: &mut impl Rng) -> Command {
     }
 }
 
-/// Whether the tables have a word for it: balls of another game, a cue ball that meets itself, and a
-/// ball that goes a second time in one shot are for other tests.
+/// Whether the tables have a word for it: balls of another game, a cue ball that meets itself, and
+/// a ball that goes a second time in one shot are for other tests.
 fn has_meaning(what: &FactKind, heard: &[Fact]) -> bool {
     let is_gone = |ball: BallId| {
         heard.iter().any(|fact| match fact.kind {

@@ -1,4 +1,5 @@
-//! The eight-ball of the 2009 paper, section 5.2, with the conventions that fix what it leaves open.
+//! The eight-ball of the 2009 paper, section 5.2, with the conventions that fix what it leaves
+//! open.
 
 use super::expected::Expected;
 use super::seen::{Seen, may_lie};
@@ -98,8 +99,8 @@ fn fouls(state: &State, seen: Seen<'_>) -> Vec<Foul> {
         (Foul::BallOff, seen.lost_an_object_ball()),
         (Foul::DoubleHit, seen.tips() > 1),
         (Foul::TouchedBall, seen.touched()),
-        // The list leaves it out, but "the break is played from behind the head string" means little
-        // if it is not.
+        // The list leaves it out, but "the break is played from behind the head string" means
+        // little without it.
         (
             Foul::BadPlacement,
             seen.placed().is_some_and(|place| !may_lie(state.ball_in_hand, place)),

@@ -1,5 +1,5 @@
-//! Questions to the facts of one shot. Each looks through the whole list again; nothing is summed up
-//! in between, so that what sums up in the program is checked with the rest.
+//! Questions to the facts of one shot. Each looks through the whole list again; nothing is summed
+//! up in between, so that what sums up in the program is checked with the rest.
 
 use hapticbillard::events::{BallInHand, Fact, FactKind, Zone};
 use hapticbillard::ids::{BallId, PlayerId, PocketId};

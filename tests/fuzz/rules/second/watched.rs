@@ -84,7 +84,10 @@ impl Watched {
         met.shots += 1;
         *met.rows.entry(expected.row).or_default() += 1;
 
-        let is_pot = |fact: &Fact| matches!(fact.kind, FactKind::BallPocketed { ball, .. } if ball != BallId::CUE);
+        let is_pot = |fact: &Fact| match fact.kind {
+            FactKind::BallPocketed { ball, .. } => ball != BallId::CUE,
+            _ => false,
+        };
         if facts.iter().any(is_pot) {
             self.dry = (0, true);
         }

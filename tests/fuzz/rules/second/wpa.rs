@@ -101,8 +101,8 @@ fn later(state: &State, call: Option<&Call>, seen: Seen<'_>) -> Expected {
         };
     }
 
-    // 3: a foul passes the turn, with the cue ball in hand anywhere. Nothing is spotted. In the order
-    // of the table that comes before a stalemate: nobody fouls his way out of one.
+    // 3: a foul passes the turn, with the cue ball in hand anywhere. Nothing is spotted. In the
+    // order of the table that comes before a stalemate: nobody fouls his way into one.
     if !fouls.is_empty() {
         return Expected::plays("foul", shooter, opponent, groups)
             .fouled(fouls)
@@ -123,8 +123,8 @@ fn later(state: &State, call: Option<&Call>, seen: Seen<'_>) -> Expected {
         };
         return Expected::plays("called ball", shooter, shooter, now);
     }
-    // Stalemate (1.12, 3.11): so many turns without a pocketed ball, and the original breaker breaks
-    // again.
+    // Stalemate (1.12, 3.11): so many turns without a pocketed ball, and the original breaker
+    // breaks again.
     let is_dry = seen.fallen().is_empty() && !state.pocketed_this_turn;
     if is_dry && state.dry_turns + 1 >= STALEMATE_TURNS {
         let again = Expected::plays("stalemate", shooter, state.breaker, Groups::Open)
