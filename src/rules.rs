@@ -33,7 +33,7 @@ pub use scenario::{
     Difference, Scenario, ScenarioError, ScenarioResult, ScenarioStatus, read_scenarios,
     run_scenario,
 };
-pub use shot::{Met, Pocketed, Shot, watch};
+pub use shot::{FirstContact, Met, Pocketed, Shot, watch};
 pub use state::{Missed, State};
 pub use text::{Language, Texts, explain};
 

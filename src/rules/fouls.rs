@@ -1,8 +1,9 @@
 //! Fouls that several games know, one function each, with the rule's sentence.
 
-use super::shot::Shot;
+use super::shot::{FirstContact, Shot};
 use super::state::State;
 use crate::events::{ByPlayer, Foul};
+use crate::ids::BallId;
 use smallvec::SmallVec;
 
 /// Whether a shot broke one rule.
@@ -44,10 +45,12 @@ pub fn no_contact(_: &State, shot: &Shot) -> bool {
     shot.first_contacts.is_empty() && !is_only_a_touch
 }
 
-/// Foul: after the first contact no ball was pocketed, driven off the table or driven to a rail. A
-/// ball that already touched a rail is not driven to it. Without a contact that is the foul.
+/// Foul: no object ball fell, and after the first contact no ball was pocketed, driven off the
+/// table or driven to a rail. A ball that already touched a rail is not driven to it. Without a
+/// contact that is the foul.
 pub fn no_rail(_: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty() && !shot.is_driven_after_contact()
+    let has_met = !shot.first_contacts.is_empty();
+    has_met && shot.pocketed.is_empty() && !shot.is_driven_after_contact()
 }
 
 /// Foul: an object ball is off the table.
@@ -77,9 +80,16 @@ pub fn bad_placement(state: &State, shot: &Shot) -> bool {
 }
 
 /// Foul: played with the cue ball in hand behind the head string, the ball that was met first lay
-/// behind it too, and the cue ball had not crossed it before.
-pub fn kitchen(state: &State, shot: &Shot) -> bool {
-    state.is_in_kitchen() && shot.first_in_kitchen && !shot.crossed_head_first()
+/// behind it too, and the cue ball had not crossed it before. Of several balls met at the same
+/// time, one that breaks no rule counts as the first.
+pub fn kitchen(state: &State, shot: &Shot, may_be_first: fn(&State, BallId) -> bool) -> bool {
+    let met = &shot.first_contacts;
+    let is_right = |met: &&FirstContact| may_be_first(state, met.ball);
+    let is_foul = match met.iter().any(|met| is_right(&met)) {
+        true => met.iter().filter(is_right).all(|met| met.in_kitchen),
+        false => !met.is_empty() && met.iter().all(|met| met.in_kitchen),
+    };
+    state.is_in_kitchen() && is_foul && !shot.crossed_head_first()
 }
 
 /// Foul: a ball still moved, or spun, when the stroke began.

@@ -28,6 +28,15 @@ pub enum Met {
     Ball(BallId),
 }
 
+/// A ball that the cue ball met before any other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FirstContact {
+    /// The ball.
+    pub ball: BallId,
+    /// It lay behind the head string.
+    pub in_kitchen: bool,
+}
+
 /// What happened in one shot, from the cue ball's placing to rest. Start with the default, or with
 /// [`Shot::of`] where the cue ball is not the one with the number 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -51,9 +60,7 @@ pub struct Shot {
     pub first_contact_s: Option<Seconds>,
     /// The balls it met then. More than one if it met them at exactly the same time; no rule can
     /// tell which was first, so none depends on the order in which they were told.
-    pub first_contacts: SmallVec<[BallId; 2]>,
-    /// The ball that was met first lay behind the head string.
-    pub first_in_kitchen: bool,
+    pub first_contacts: SmallVec<[FirstContact; 2]>,
     /// All meetings of two balls, in time order.
     pub contacts: SmallVec<[(BallId, BallId); 16]>,
     /// Balls driven to a rail, in time order: cushion contacts with `onset` only.
@@ -160,8 +167,7 @@ fn watch_cue_ball_contact(shot: &mut Shot, time_s: Seconds, other: BallId, in_ki
     shot.meet(time_s, Met::Ball(other));
     let first_s = *shot.first_contact_s.get_or_insert(time_s);
     if first_s == time_s {
-        shot.first_contacts.push(other);
-        shot.first_in_kitchen |= in_kitchen;
+        shot.first_contacts.push(FirstContact { ball: other, in_kitchen });
     }
 }
 
@@ -263,7 +269,7 @@ impl Shot {
             ok,
             self.push,
             self.moving,
-            self.first_in_kitchen,
+            self.first_contacts.iter().any(|met| met.in_kitchen),
             self.cue_pocketed,
             self.cue_off,
             self.settled,
@@ -276,7 +282,12 @@ impl Shot {
         hash.u64(self.tips.into());
         hash.u64(self.struck_by.map_or(0, |player| player.0.into()));
         hash.f64(self.first_contact_s.unwrap_or(-1.0));
-        hash_list(hash, self.first_contacts.iter().map(|ball| ball.0.into()));
+        hash_list(
+            hash,
+            self.first_contacts
+                .iter()
+                .map(|met| u64::from(met.in_kitchen) << 16 | u64::from(met.ball.0)),
+        );
         hash_list(hash, self.contacts.iter().map(|(a, b)| u64::from(a.0) << 16 | u64::from(b.0)));
         hash_list(hash, self.rails.iter().map(|(a, rail)| u64::from(a.0) << 16 | *rail as u64));
         hash.f64(self.last_driven_s.unwrap_or(-1.0));

@@ -19,6 +19,8 @@ mod play;
 mod pool;
 /// Shots as good players make them.
 mod script;
+/// A second judge of eight-ball.
+mod second;
 
 use hapticbillard::rules::{Console, GameKind, game};
 use play::{Tally, play};

@@ -96,7 +96,7 @@ pub fn may_be_first(state: &State, ball: BallId) -> bool {
 /// left or the table is open. Of two balls met at the same time, the right one was first.
 fn wrong_first(state: &State, shot: &Shot) -> bool {
     !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|ball| may_be_first(state, *ball))
+        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Foul: the 8 fell after the break although the own group was not gone before the shot.

@@ -61,7 +61,7 @@ const FOULS: [(Foul, Rule); 12] = [
     (Foul::Push, fouls::push),
     (Foul::TouchedBall, fouls::touched_ball),
     (Foul::BadPlacement, fouls::bad_placement),
-    (Foul::Kitchen, fouls::kitchen),
+    (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, |_, _| true)),
     (Foul::Moving, fouls::moving),
     (Foul::OutOfTurn, fouls::out_of_turn),
 ];

@@ -51,7 +51,7 @@ const ALWAYS: [(Foul, Rule); 11] = [
     (Foul::Push, fouls::push),
     (Foul::TouchedBall, fouls::touched_ball),
     (Foul::BadPlacement, fouls::bad_placement),
-    (Foul::Kitchen, fouls::kitchen),
+    (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, may_be_first)),
     (Foul::Moving, fouls::moving),
     (Foul::OutOfTurn, fouls::out_of_turn),
 ];
@@ -195,7 +195,7 @@ fn may_be_first(state: &State, ball: BallId) -> bool {
 /// first.
 fn wrong_first(state: &State, shot: &Shot) -> bool {
     !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|ball| may_be_first(state, *ball))
+        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Illegal: no object ball fell on the break, and fewer than four were driven to a rail.

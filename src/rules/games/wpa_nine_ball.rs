@@ -47,7 +47,7 @@ const ALWAYS: [(Foul, Rule); 10] = [
     (Foul::Push, fouls::push),
     (Foul::TouchedBall, fouls::touched_ball),
     (Foul::BadPlacement, fouls::bad_placement),
-    (Foul::Kitchen, fouls::kitchen),
+    (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, may_be_first)),
     (Foul::Moving, fouls::moving),
     (Foul::OutOfTurn, fouls::out_of_turn),
 ];
@@ -153,7 +153,7 @@ fn may_be_first(state: &State, ball: BallId) -> bool {
 /// Of two balls met at the same time, the right one was first.
 fn wrong_first(state: &State, shot: &Shot) -> bool {
     !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|ball| may_be_first(state, *ball))
+        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Foul, after the break: neither did a ball fall nor did one reach a rail after the contact.

@@ -231,7 +231,8 @@ fn hear(
     }
 }
 
-const CHOICES: [Choice; 13] = [
+/// Everything that somebody may say to a choice.
+pub const CHOICES: [Choice; 13] = [
     Choice::PutBack,
     Choice::Accept,
     Choice::CueInHandKitchen,
