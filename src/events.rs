@@ -6,13 +6,14 @@
 
 mod fact;
 mod game;
+mod verdict;
 
 pub use fact::{Fact, FactKind, TouchedBy};
 pub use game::{
-    BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Choice, Command, Foul, Group, Groups,
-    Health, MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Turn,
-    TurnAfter, Verdict, Zone,
+    BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Command, Group, Groups, Health,
+    MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Zone,
 };
+pub use verdict::{Choice, Foul, Turn, TurnAfter, Verdict};
 
 use crate::ids::PlayerId;
 use crate::units::Tick;

@@ -155,7 +155,7 @@ pub fn rails_before_second_ball(shot: &Shot) -> Option<usize> {
 /// Foul: on the break the cue ball met another ball than the red first.
 fn other_than_red_first(state: &State, shot: &Shot) -> bool {
     !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|ball| may_be_first(state, *ball))
+        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Foul: another ball than the cue ball is gone.

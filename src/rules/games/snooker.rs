@@ -205,7 +205,7 @@ fn with_nomination(state: &State, call: Option<&Call>, shot: &Shot) -> State {
         _ => state.nominated,
     };
     let met = match shot.first_contacts.as_slice() {
-        [ball] => Some(*ball),
+        [met] => Some(met.ball),
         _ => None,
     };
     let may_be = |ball: &BallId| may_nominate(state, *ball);
@@ -253,8 +253,8 @@ fn may_fall(state: &State, ball: BallId) -> bool {
 /// the free ball and a ball on, may be met together.
 fn wrong_first(state: &State, shot: &Shot) -> bool {
     let met = &shot.first_contacts;
-    let is_right = met.iter().any(|ball| may_be_first(state, *ball))
-        && met.iter().all(|ball| may_fall(state, *ball));
+    let is_right = met.iter().any(|met| may_be_first(state, met.ball))
+        && met.iter().all(|met| may_fall(state, met.ball));
     !met.is_empty() && !is_right
 }
 
@@ -291,7 +291,7 @@ fn penalty(state: &State, shot: &Shot) -> i32 {
     let wrong_fell = shot.pocketed.iter().map(|fallen| fallen.ball);
     let wrong_fell = wrong_fell.filter(|ball| !may_fall(state, *ball));
     let touched = shot.touched.iter().map(|(ball, _)| *ball);
-    let concerned = wrong_met.copied().chain(wrong_fell).chain(shot.off.iter().copied());
+    let concerned = wrong_met.map(|met| met.ball).chain(wrong_fell).chain(shot.off.iter().copied());
     let values = concerned.chain(touched).map(value);
     values.fold(value_of_on(state), i32::max).clamp(PENALTY_MIN, PENALTY_MAX)
 }

@@ -238,6 +238,8 @@ fn has_meaning(what: &FactKind, heard: &[Fact]) -> bool {
         | FactKind::CushionHit { ball, .. }
         | FactKind::HeadStringCrossed { ball }
         | FactKind::BallTouched { ball, .. } => is_ball(ball),
+        // Carom alone has a word for balls that lie together.
+        FactKind::BallsFrozen { .. } => false,
         FactKind::Settled { .. } => true,
     }
 }

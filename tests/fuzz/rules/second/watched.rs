@@ -129,7 +129,12 @@ impl Watched {
             Choice::Respot8CueInHandKitchen => (None, true, BallInHand::Kitchen),
             Choice::RerackAndBreak | Choice::Rebreak => (Some(chooser), true, BallInHand::Kitchen),
             Choice::RerackOpponentBreaks => (Some(other), true, BallInHand::Kitchen),
-            Choice::Shoot | Choice::PassBack | Choice::AskAgain | Choice::Play => {
+            Choice::Shoot
+            | Choice::PassBack
+            | Choice::AskAgain
+            | Choice::Play
+            | Choice::PutBack
+            | Choice::SpotFrozen => {
                 return Err(format!("{choice:?} is no choice of eight-ball"));
             }
         };
