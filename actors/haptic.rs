@@ -47,7 +47,7 @@ use hapticbillard::ball::{Ball, BallState};
 use hapticbillard::cue::Aim;
 use hapticbillard::haptic::{EffectSet, HapticMesh, Reach, ReachSettings};
 use hapticbillard::ids::BallId;
-use hapticbillard::scene::{HapticDevice, Scene};
+use hapticbillard::scene::{HapticDevice, HapticSection, Scene};
 use hapticbillard::table::Table;
 use std::path::{Component, Path};
 use std::sync::Arc;
@@ -68,13 +68,14 @@ pub fn plan(
     let Some(section) = &scene.haptic else { return Ok(None) };
     let Some(opened) = open(&seen_from(folder, &section.device)?)? else { return Ok(None) };
     let parameters = scene.parameters();
-    let lay = scene.cue.is_some().then(|| Lay { settings: ReachSettings::default(), parameters });
+    let settings = reach_settings(section);
+    let lay = scene.cue.is_some().then_some(Lay { settings, parameters });
     Ok(Some(Plan {
         opened,
         asked: Asked::by(section),
         mesh: Some(Arc::new(HapticMesh::of(table))),
         effects: EffectSet::default(),
-        reach: reach(scene, balls, lay.as_ref()),
+        reach: reach(scene, balls, lay.as_ref(), &settings),
         lay,
         bodies: balls.iter().map(|(ball, _)| ball.clone()).collect(),
     }))
@@ -94,12 +95,27 @@ fn seen_from(folder: Option<&Path>, device: &HapticDevice) -> Result<HapticDevic
     Ok(HapticDevice::Recorded(path.to_string_lossy().into_owned()))
 }
 
+/// How the workspace is laid into the world: as the scene says, or as it is by default.
+fn reach_settings(section: &HapticSection) -> ReachSettings {
+    let usual = ReachSettings::default();
+    ReachSettings {
+        scale: section.scale.unwrap_or(usual.scale),
+        stroke_gain: section.stroke_gain.unwrap_or(usual.stroke_gain),
+        ..usual
+    }
+}
+
 /// How far the workspace in front of a cue ball is lowered at first [rad]: the cue clears the rail.
 const ELEVATION_RAD: f64 = 0.06;
 
 /// The workspace in front of the cue ball where it can be struck; otherwise round all balls; none
 /// without balls.
-fn reach(scene: &Scene, balls: &[(Ball, BallState)], lay: Option<&Lay>) -> Option<Reach> {
+fn reach(
+    scene: &Scene,
+    balls: &[(Ball, BallState)],
+    lay: Option<&Lay>,
+    settings: &ReachSettings,
+) -> Option<Reach> {
     let cue_ball = balls.iter().find(|(ball, _)| ball.id == BallId::CUE);
     if let (Some(lay), Some((_, state))) = (lay, cue_ball) {
         let aim = Aim { elevation_rad: ELEVATION_RAD, ..Aim::default() };
@@ -111,6 +127,5 @@ fn reach(scene: &Scene, balls: &[(Ball, BallState)], lay: Option<&Lay>) -> Optio
         high = high.max(state.position + ball.radius_m);
     }
     let tip_radius_m = scene.parameters().tip_radius_m;
-    let settings = ReachSettings::default();
-    (!balls.is_empty()).then(|| Reach::around(1, low, high, tip_radius_m, &settings))
+    (!balls.is_empty()).then(|| Reach::around(1, low, high, tip_radius_m, settings))
 }

@@ -332,6 +332,10 @@ pub struct HapticSection {
     pub priority: Option<u32>,
     /// How long before a deadline it stops sleeping and spins [µs].
     pub spin_us: Option<u32>,
+    /// Metres of the world per metre of the device.
+    pub scale: Option<f64>,
+    /// Further factor along the shaft during a stroke.
+    pub stroke_gain: Option<f64>,
     /// The window begins with the panel of numbers.
     pub overlay: bool,
 }

@@ -480,7 +480,10 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 }
 
 fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
-    section.allow(&["device", "core", "priority", "spin_us", "overlay"])?;
+    let keys = ["device", "core", "priority", "spin_us", "scale", "stroke_gain", "overlay"];
+    section.allow(&keys)?;
+    let scale = Limits { low: 0.1, high: 20.0, unit: "(m of the world per m)", example: "2.0" };
+    let gain = Limits { low: 1.0, high: 20.0, unit: "(along the shaft)", example: "2.75" };
     let text = section.text("device", "auto").ok().flatten();
     let nameless = |allowed: &str, fix: &str| Err(section.error("device", allowed, fix));
     let device = match text.as_deref() {
@@ -509,6 +512,8 @@ fn haptic(section: &Section<'_>) -> Result<HapticSection, SceneError> {
         core: number("core", 0..=1023)?,
         priority: number("priority", 1..=99)?,
         spin_us: number("spin_us", 0..=500)?,
+        scale: section.number("scale", scale)?,
+        stroke_gain: section.number("stroke_gain", gain)?,
         overlay: section.switch("overlay")?.unwrap_or(false),
     })
 }

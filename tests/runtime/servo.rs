@@ -587,3 +587,14 @@ fn a_recorded_hand_breaks_as_it_did_bit_by_bit() {
     assert_eq!((again.speeds, again.verdicts), (once.speeds, once.verdicts));
     assert!(once.felt.iter().any(|(_, touched)| *touched == Touched::Struck(BallId::CUE)));
 }
+
+#[test]
+fn a_scene_says_how_far_a_hand_reaches() {
+    let speed = |name, keys: &str| {
+        let (file, hand) = two_hands(name);
+        fs::write(&file, TWO_HANDS.to_string() + keys).unwrap();
+        broken(&file, |_| Opened::new(hand)).speeds[0]
+    };
+    let half = speed("half_the_reach", "stroke_gain = 1.375\n") / speed("the_reach", "");
+    assert!((half - 0.5).abs() < 0.05, "{half}");
+}

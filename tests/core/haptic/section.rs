@@ -19,6 +19,9 @@ fn the_section_says_what_is_asked_for() {
     assert!(
         !haptic.overlay && parse("[haptic]\noverlay = true\n").unwrap().haptic.unwrap().overlay
     );
+    let text = "[haptic]\nscale = 1.5\nstroke_gain = 4.0\n";
+    let haptic = parse(text).unwrap().haptic.unwrap();
+    assert_eq!((haptic.scale, haptic.stroke_gain), (Some(1.5), Some(4.0)));
     for name in [
         "auto",
         "simulated",
@@ -75,8 +78,14 @@ fn what_is_wrong_in_it_is_said_in_one_exact_line() {
         "priority = 0: expected a whole number from 1 to 99; write for example priority = 1",
     );
     check(
+        "[haptic]\nstroke_gain = 0.5\n",
+        "stroke_gain = 0.5: expected a number from 1 to 20 (along the shaft); write for example \
+         stroke_gain = 2.75",
+    );
+    check(
         "[haptic]\nforce = 9\n",
-        "force = 9: haptic has the keys device, core, priority, spin_us, overlay; remove this key",
+        "force = 9: haptic has the keys device, core, priority, spin_us, scale, stroke_gain, \
+         overlay; remove this key",
     );
 }
 
