@@ -151,28 +151,6 @@ impl FrameSource for WindowHand {
     }
 }
 
-impl Participant for WindowHand {
-    fn source(&self) -> Source {
-        self.core.get().source()
-    }
-
-    fn topics(&self) -> Topics {
-        self.core.get().topics()
-    }
-
-    fn start(&mut self, table: &Snapshot) -> Outcome {
-        self.core.work(|core| core.start(table))
-    }
-
-    fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        self.core.work(|core| core.collect(delivered))
-    }
-
-    fn hash(&self, hash: &mut StateHash) {
-        self.core.get().hash(hash);
-    }
-}
-
 /// A hand at a haptic device, in a window whose mouse may move it.
 pub struct LedHand {
     core: Saved<LedHuman>,
@@ -228,24 +206,32 @@ impl FrameSource for LedHand {
     }
 }
 
-impl Participant for LedHand {
-    fn source(&self) -> Source {
-        self.core.get().source()
-    }
+/// Takes part in the game as its saved core does.
+macro_rules! takes_part_by_its_core {
+    ($hand:ty) => {
+        impl Participant for $hand {
+            fn source(&self) -> Source {
+                self.core.get().source()
+            }
 
-    fn topics(&self) -> Topics {
-        self.core.get().topics()
-    }
+            fn topics(&self) -> Topics {
+                self.core.get().topics()
+            }
 
-    fn start(&mut self, table: &Snapshot) -> Outcome {
-        self.core.work(|core| core.start(table))
-    }
+            fn start(&mut self, table: &Snapshot) -> Outcome {
+                self.core.work(|core| core.start(table))
+            }
 
-    fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        self.core.work(|core| core.collect(delivered))
-    }
+            fn collect(&mut self, delivered: &Delivered) -> Outcome {
+                self.core.work(|core| core.collect(delivered))
+            }
 
-    fn hash(&self, hash: &mut StateHash) {
-        self.core.get().hash(hash);
-    }
+            fn hash(&self, hash: &mut StateHash) {
+                self.core.get().hash(hash);
+            }
+        }
+    };
 }
+
+takes_part_by_its_core!(WindowHand);
+takes_part_by_its_core!(LedHand);

@@ -5,11 +5,11 @@
 
 use crate::ai::{Player, PlayerSettings};
 use crate::ball::POOL_RADIUS_M;
-use crate::ids::{BallId, GameKind, PlayerId};
+use crate::ids::{BallId, PlayerId};
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
 use crate::rack::Sight;
-use crate::rules::{Referee, UNDO_SHOTS, game};
+use crate::rules::{Referee, game};
 use crate::scene::{PlayerKind, Scene, SceneError};
 use crate::table::Table;
 use std::sync::Arc;
@@ -70,24 +70,20 @@ impl Cast {
         let tip_radius_m = parameters.tip_radius_m;
         let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?
             .with_racks(scene.racks(&table));
-        let is_practice = scene.rules.is_some_and(|rules| game(rules.game).is_practice);
-        let simulation = match (is_practice, scene.rules) {
-            (_, None) => simulation,
-            (true, Some(_)) => simulation.with_memory(UNDO_SHOTS),
-            // Balls may be put back after a miss.
-            (false, Some(rules)) if rules.game == GameKind::Snooker => {
-                simulation.with_object_balls_left_alone().with_memory(1)
-            }
-            (false, Some(_)) => simulation.with_object_balls_left_alone(),
+        let played = scene.rules.map(|rules| game(rules.game));
+        let is_practice = played.is_some_and(|game| game.is_practice);
+        let simulation = match played {
+            None => simulation,
+            Some(game) if is_practice => simulation.with_memory(game.takes_back),
+            Some(game) => simulation.with_object_balls_left_alone().with_memory(game.takes_back),
         };
+        let knows_snookers = played.is_some_and(|game| game.knows_snookers);
         let referee = scene.rules.as_ref().map(|rules| {
             let referee = Referee::new(rules.game).first_player(rules.first_player);
             let referee = if scene.players.len() == 1 { referee.alone() } else { referee };
-            match (rules.game, table.bed) {
-                (GameKind::Snooker, Some(bed)) => {
-                    referee.with_sight(Sight { bed, spots: table.spots, radius_m })
-                }
-                _ => referee,
+            match table.bed.filter(|_| knows_snookers) {
+                Some(bed) => referee.with_sight(Sight { bed, spots: table.spots, radius_m }),
+                None => referee,
             }
         });
         let mut players = Vec::new();

@@ -25,10 +25,10 @@ mod text;
 pub use crate::ids::{GameKind, UnknownGame};
 pub use ball_names::{ball_name, ball_named};
 pub use console::{Console, ConsoleAnswer, ConsoleError};
-pub use game::{Chosen, Game, Judge};
+pub use game::{Chosen, Game, Judge, UNDO_SHOTS};
 pub use games::game;
 pub use phase::{Phase, Signal, diagram};
-pub use referee::{Referee, UNDO_SHOTS};
+pub use referee::Referee;
 pub use scenario::{
     Difference, Scenario, ScenarioError, ScenarioResult, ScenarioStatus, read_scenarios,
     run_scenario,

@@ -138,13 +138,9 @@ pub enum FactKind {
         snookered: bool,
         /// Straight pool, one object ball or none is left: the cue ball lies where the others are
         /// racked, and so that it must be played from behind the head string.
-        #[serde(default, skip_serializing_if = "is_false")]
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         cue_in_rack: bool,
     },
-}
-
-fn is_false(flag: &bool) -> bool {
-    !*flag
 }
 
 /// What touched a ball against the rules.

@@ -129,7 +129,7 @@ pub struct Verdict {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ball_on_next: Option<BallOn>,
     /// Snooker: the next player may nominate any ball.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub free_ball: bool,
     /// Balls that are racked now.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -147,10 +147,6 @@ impl Verdict {
         };
         if self.options.iter().copied().any(decides) { &[] } else { &self.spot }
     }
-}
-
-fn is_false(flag: &bool) -> bool {
-    !*flag
 }
 
 /// A player is called to the table: to shoot, or to choose if there are options.
@@ -185,9 +181,9 @@ pub struct Turn {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<BallOn>,
     /// Snooker: any ball may be nominated as if it were on.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub free_ball: bool,
     /// The player has been told that the next foul is the third in a row.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub warned: bool,
 }

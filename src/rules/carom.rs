@@ -8,7 +8,7 @@
 //! what the balls do. Left out: the lag, the equalising inning of the second player, and fouls of
 //! the body (a foot off the floor, the shot clock).
 
-use super::fouls::{self, Rule, committed};
+use super::fouls::{self, Rule, committed, verdict_on};
 use super::game::Chosen;
 use super::shot::{Met, Shot};
 use super::state::State;
@@ -37,7 +37,7 @@ const PLAYED_AT_S: Seconds = 5e-3;
 const FOULS: [(Foul, Rule); 10] = [
     (Foul::Scratch, fouls::scratch),
     (Foul::CueOff, fouls::cue_ball_off),
-    (Foul::WrongFirst, other_than_red_first),
+    (Foul::WrongFirst, |state, shot| fouls::wrong_first(state, shot, may_be_first)),
     (Foul::BallOff, object_ball_lost),
     (Foul::DoubleHit, fouls::double_hit),
     (Foul::Push, push),
@@ -72,18 +72,12 @@ pub fn may_be_first(state: &State, ball: BallId) -> bool {
 /// nothing.
 pub fn judge(game: &Carom, state: &State, shot: &Shot) -> Verdict {
     let (own, other) = (state.player, state.player.other());
-    let fouls = committed(&FOULS, state, shot);
+    let fouls = committed(&[&FOULS], state, shot);
     let lost = lost(shot);
     let has_scored = fouls.is_empty() && (game.scores)(shot);
     let points = i32::from(has_scored) - game.lost_ball * lost.len() as i32;
-    let verdict = Verdict {
-        player: Some(own),
-        legal: fouls.is_empty(),
-        fouls,
-        pocketed: shot.pocketed_balls(),
-        points: ByPlayer::default().with(own, points),
-        ..Verdict::default()
-    };
+    let points_of_shot = ByPlayer::default().with(own, points);
+    let verdict = Verdict { points: points_of_shot, ..verdict_on(state, shot, fouls) };
     if has_scored && state.score.of(own).saturating_add(points) >= game.target {
         return Verdict { turn: TurnAfter::End, winner: Some(own), ..verdict };
     }
@@ -150,12 +144,6 @@ pub fn rails_before_second_ball(shot: &Shot) -> Option<usize> {
     let first = shot.cue_met.iter().find_map(ball_of)?;
     let second = shot.cue_met.iter().position(|met| ball_of(met).is_some_and(|b| b != first))?;
     Some(shot.cue_met[..second].iter().filter(|met| ball_of(met).is_none()).count())
-}
-
-/// Foul: on the break the cue ball met another ball than the red first.
-fn other_than_red_first(state: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Foul: another ball than the cue ball is gone.

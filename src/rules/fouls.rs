@@ -1,20 +1,48 @@
-//! Fouls that several games know, one function each, with the rule's sentence.
+//! Fouls that several games know, one function each, with the rule's sentence; and what every
+//! verdict begins with.
 
 use super::shot::{FirstContact, Shot};
 use super::state::State;
-use crate::events::{ByPlayer, Foul};
+use crate::events::{ByPlayer, Foul, Verdict};
 use crate::ids::BallId;
 use smallvec::SmallVec;
 
 /// Whether a shot broke one rule.
 pub type Rule = fn(&State, &Shot) -> bool;
 
-/// All fouls of a list that a shot committed, sorted.
-pub fn committed(rules: &[(Foul, Rule)], state: &State, shot: &Shot) -> SmallVec<[Foul; 2]> {
-    let broken = rules.iter().filter(|(_, rule)| rule(state, shot));
+/// What is a foul on every shot of pool and of snooker.
+pub const ALWAYS: [(Foul, Rule); 9] = [
+    (Foul::Scratch, scratch),
+    (Foul::CueOff, cue_ball_off),
+    (Foul::BallOff, ball_off),
+    (Foul::DoubleHit, double_hit),
+    (Foul::Push, push),
+    (Foul::TouchedBall, touched_ball),
+    (Foul::BadPlacement, bad_placement),
+    (Foul::Moving, moving),
+    (Foul::OutOfTurn, out_of_turn),
+];
+
+/// So many object balls must reach a rail on a break on which none falls.
+const DRIVEN_MIN: usize = 4;
+
+/// All fouls of some lists that a shot committed, sorted.
+pub fn committed(lists: &[&[(Foul, Rule)]], state: &State, shot: &Shot) -> SmallVec<[Foul; 2]> {
+    let broken = lists.iter().copied().flatten().filter(|(_, rule)| rule(state, shot));
     let mut fouls: SmallVec<[Foul; 2]> = broken.map(|(foul, _)| *foul).collect();
     fouls.sort_unstable();
     fouls
+}
+
+/// What every verdict on a shot says, whatever follows from it.
+pub fn verdict_on(state: &State, shot: &Shot, fouls: SmallVec<[Foul; 2]>) -> Verdict {
+    Verdict {
+        player: Some(state.player),
+        legal: fouls.is_empty(),
+        fouls,
+        pocketed: shot.pocketed_balls(),
+        ..Verdict::default()
+    }
 }
 
 /// Fouls in a row of each player after a shot: a shot without a foul sets the own count to 0. A
@@ -43,6 +71,18 @@ pub fn cue_ball_off(_: &State, shot: &Shot) -> bool {
 pub fn no_contact(_: &State, shot: &Shot) -> bool {
     let is_only_a_touch = shot.tips == 0 && !shot.touched.is_empty();
     shot.first_contacts.is_empty() && !is_only_a_touch
+}
+
+/// Foul: the cue ball met a ball first that it may not. Of several met at the same time, the right
+/// one was first.
+pub fn wrong_first(state: &State, shot: &Shot, may_be_first: fn(&State, BallId) -> bool) -> bool {
+    let met = &shot.first_contacts;
+    !met.is_empty() && !met.iter().any(|met| may_be_first(state, met.ball))
+}
+
+/// Not enough for a break: no object ball fell, and fewer than four were driven to a rail.
+pub fn is_weak_break(shot: &Shot) -> bool {
+    shot.pocketed.is_empty() && shot.driven().len() < DRIVEN_MIN
 }
 
 /// Foul: no object ball fell, and after the first contact no ball was pocketed, driven off the

@@ -6,6 +6,9 @@ use crate::events::{BallInHand, Call, Calls, Choice, Topic, Verdict};
 use crate::ids::BallId;
 use smallvec::SmallVec;
 
+/// So many shots can be taken back in training.
+pub const UNDO_SHOTS: usize = 64;
+
 /// A pure function that judges a finished shot.
 pub type Judge = fn(&State, Option<&Call>, &Shot) -> Verdict;
 
@@ -35,6 +38,10 @@ pub struct Game {
     pub has_score: bool,
     /// Any ball may be put anywhere, and shots are taken back.
     pub is_practice: bool,
+    /// So many of the last shots can be taken back, by whoever the game lets do that.
+    pub takes_back: usize,
+    /// Whether it matters that a foul leaves the next player without a ball on in sight.
+    pub knows_snookers: bool,
     /// What ends the game, for the diagram.
     pub ends: &'static str,
     /// When the cue ball is in hand, for the diagram.
@@ -73,6 +80,8 @@ impl Game {
         names: &[],
         has_score: false,
         is_practice: false,
+        takes_back: 0,
+        knows_snookers: false,
         ends: "Settled, somebody has won",
         in_hand: "Turn, cue ball in hand",
     };

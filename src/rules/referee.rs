@@ -24,9 +24,6 @@ use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// So many shots can be taken back in training.
-pub const UNDO_SHOTS: usize = 64;
-
 /// What the referee says, in this order.
 type Sayings = SmallVec<[Event; 4]>;
 
@@ -182,7 +179,7 @@ impl Referee {
 
     fn begin_shot(&mut self) {
         if self.is_practice() {
-            if self.history.len() == UNDO_SHOTS {
+            if self.history.len() == game(self.game).takes_back {
                 self.history.pop_front();
             }
             self.history.push_back((self.state.clone(), self.shot_number));

@@ -14,7 +14,7 @@ use smallvec::SmallVec;
 ///
 /// JSON: the `state` of a rule scenario. Fields that are absent are none, empty, false or 0;
 /// fields of games that are not known here are ignored.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct State {
     /// What kind of shot comes next.
@@ -32,7 +32,7 @@ pub struct State {
     /// Turns in a row, of both players together, in which no object ball was pocketed.
     pub dry_turns: u32,
     /// An object ball was pocketed earlier in this very turn, so that it cannot be a dry one.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub pocketed_this_turn: bool,
     /// Who broke this rack.
     #[serde(skip_serializing_if = "is_one", deserialize_with = "one_of_two")]
@@ -41,10 +41,10 @@ pub struct State {
     #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
     pub fouls: ByPlayer<u8>,
     /// The player was told that the next foul is the third in a row.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub warned: bool,
     /// This is the shot right after a legal break.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub after_break: bool,
     /// Points, where a game has them.
     #[serde(skip_serializing_if = "ByPlayer::is_nothing")]
@@ -56,7 +56,7 @@ pub struct State {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nominated: Option<BallId>,
     /// Snooker: any ball may be nominated as if it were on.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub free_ball: bool,
     /// Snooker: what a miss left, for whoever may have it put back.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,7 +71,7 @@ pub struct State {
     #[serde(skip_serializing_if = "SmallVec::is_empty")]
     pub options: SmallVec<[Choice; 3]>,
     /// Nobody plays but this player.
-    #[serde(skip_serializing_if = "is_false")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_alone: bool,
 }
 
@@ -87,43 +87,12 @@ pub struct Missed {
     pub free_ball: bool,
 }
 
-impl Default for State {
-    fn default() -> Self {
-        State {
-            shot: ShotKind::Normal,
-            player: PlayerId::ONE,
-            groups: None,
-            on_table: SmallVec::new(),
-            ball_in_hand: BallInHand::None,
-            dry_turns: 0,
-            pocketed_this_turn: false,
-            breaker: PlayerId::ONE,
-            fouls: ByPlayer::default(),
-            warned: false,
-            after_break: false,
-            score: ByPlayer::default(),
-            on: None,
-            nominated: None,
-            free_ball: false,
-            missed: None,
-            cue_ball: BallId::CUE,
-            frozen_to_cue: SmallVec::new(),
-            options: SmallVec::new(),
-            is_alone: false,
-        }
-    }
-}
-
 fn is_one(player: &PlayerId) -> bool {
     *player == PlayerId::ONE
 }
 
 fn is_zero(ball: &BallId) -> bool {
     ball.0 == 0
-}
-
-fn is_false(flag: &bool) -> bool {
-    !*flag
 }
 
 fn one_of_two<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PlayerId, D::Error> {

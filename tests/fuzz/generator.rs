@@ -5,16 +5,20 @@ use rand_pcg::Pcg64Mcg;
 
 /// The seed of this run: `FUZZ_SEED`, or always the same.
 pub fn seed() -> u64 {
-    variable("FUZZ_SEED").unwrap_or(20_090_701)
+    number("FUZZ_SEED", 20_090_701)
 }
 
 /// How many cases this run tries: `FUZZ_EVENTS`, or a short smoke.
 pub fn cases(smoke: u64) -> u64 {
-    variable("FUZZ_EVENTS").unwrap_or(smoke)
+    number("FUZZ_EVENTS", smoke)
 }
 
-fn variable(name: &str) -> Option<u64> {
-    std::env::var(name).ok()?.parse().ok()
+/// The number in a variable of the environment, or another one where there is none.
+pub fn number(name: &str, default: u64) -> u64 {
+    match std::env::var(name) {
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name}={text} is no whole number")),
+        Err(_) => default,
+    }
 }
 
 /// A generator for one case of a run.

@@ -22,6 +22,7 @@ mod script;
 /// A second judge of eight-ball.
 mod second;
 
+use super::generator::number;
 use hapticbillard::rules::{Console, GameKind, game};
 use play::{Tally, play};
 use rand::{RngExt, SeedableRng};
@@ -102,13 +103,6 @@ fn check_corners(kind: GameKind, tally: &Tally) {
             met("calls", tally.calls, 100);
             met("racks", tally.racks, 10);
         }
-    }
-}
-
-fn number(name: &str, default: u64) -> u64 {
-    match std::env::var(name) {
-        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name}={text} is no whole number")),
-        Err(_) => default,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::counting::calls;
 use crate::mocks::haply_service::{Arm, Fault, HaplyService};
-use crate::servo::{Heart, tokio, wait_for};
+use crate::servo::{Heart, control, tokio, wait_for};
 use glam::DVec3;
 use hapticbillard::events::Health;
 use hapticbillard::haptic::{
@@ -10,9 +10,8 @@ use hapticbillard::haptic::{
 };
 use hapticbillard::scene::HapticDevice;
 use hapticbillard_actors::haptic::{
-    Asked, Core, Haptic, Look, NoDevice, Opened, Plan, Seat, Started, allowed, open,
+    Asked, Core, Look, NoDevice, Opened, Plan, Seat, Started, allowed, open,
 };
-use kameo::prelude::*;
 use serde_json::json;
 use std::net::TcpListener;
 use std::sync::Arc;
@@ -117,10 +116,7 @@ fn break_and_mend(faults: &[(Fault, &str, bool)]) {
         let service = HaplyService::start(Arm::NEW, Fault::None);
         let seat = seated(&service);
         let runtime = tokio();
-        let control = {
-            let _inside = runtime.enter();
-            Haptic::spawn(Haptic::new(&seat).unwrap())
-        };
+        let control = control(&runtime, &seat);
         let look = || runtime.block_on(control.ask(Look).send()).unwrap();
         let _heart = Heart::of(seat.signs());
         wait_for_push(&service);
@@ -193,10 +189,7 @@ fn a_silent_service_is_told_that_no_force_is_meant() {
     let service = HaplyService::start(Arm::NEW, Fault::None);
     let seat = seated(&service);
     let runtime = tokio();
-    let control = {
-        let _inside = runtime.enter();
-        Haptic::spawn(Haptic::new(&seat).unwrap())
-    };
+    let control = control(&runtime, &seat);
     let look = || runtime.block_on(control.ask(Look).send()).unwrap();
     let _heart = Heart::of(seat.signs());
     wait_for_push(&service);

@@ -5,7 +5,7 @@ mod opening;
 mod program;
 mod running;
 
-use crate::servo::{Heart, PUSH_N, tokio, wait_for};
+use crate::servo::{Heart, PUSH_N, control, tokio, wait_for};
 use crate::stub_hd::StubHd;
 use glam::DVec3;
 use hapticbillard::events::Health;
@@ -51,10 +51,7 @@ impl Game {
         let Started { seat, .. } = Seat::start(plan(opened)).unwrap();
         let heart = Heart::of(seat.signs());
         let runtime = tokio();
-        let control = {
-            let _inside = runtime.enter();
-            Haptic::spawn(Haptic::new(&seat).unwrap())
-        };
+        let control = control(&runtime, &seat);
         Game { stub, seat, control, runtime, heart }
     }
 

@@ -145,6 +145,12 @@ pub fn tokio() -> tokio::runtime::Runtime {
     tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_time().build().unwrap()
 }
 
+/// A control that holds a servo.
+pub fn control(runtime: &tokio::runtime::Runtime, seat: &Arc<Seat>) -> ActorRef<Haptic> {
+    let _inside = runtime.enter();
+    Haptic::spawn(Haptic::new(seat).unwrap())
+}
+
 #[test]
 fn a_turn_of_the_loop_allocates_nothing() {
     let stage = Stage::new(&load_scene("eight_ball").unwrap(), "eight_ball").unwrap();
@@ -356,10 +362,7 @@ fn a_device_that_says_nan_or_is_lost_and_a_world_that_stalls_leave_no_force_and_
     let (plan, wires) = wired();
     let Started { seat, .. } = Seat::start(plan).unwrap();
     let runtime = tokio();
-    let control = {
-        let _inside = runtime.enter();
-        Haptic::spawn(Haptic::new(&seat).unwrap())
-    };
+    let control = control(&runtime, &seat);
     let look = || runtime.block_on(control.ask(Look).send()).unwrap();
     let settle = || {
         wait_for_push(&wires);
@@ -551,10 +554,7 @@ fn a_mouse_turns_and_raises_the_workspace() {
     let plan = Plan { opened, asked, ..stage.haptic().unwrap().unwrap() };
     let Started { seat, .. } = Seat::start(plan).unwrap();
     let runtime = tokio();
-    let control = {
-        let _inside = runtime.enter();
-        Haptic::spawn(Haptic::new(&seat).unwrap())
-    };
+    let control = control(&runtime, &seat);
     let look = || runtime.block_on(control.ask(Look).send()).unwrap().report;
     wait_for("a workspace", || look().elevation_rad > 0.0);
     let before = look();

@@ -1,9 +1,11 @@
 //! Free play: no fouls, no groups, nobody wins.
 
 use crate::events::{BallInHand, Call, TurnAfter, Verdict};
+use crate::rules::fouls::verdict_on;
 use crate::rules::game::Game;
 use crate::rules::shot::Shot;
 use crate::rules::state::State;
+use smallvec::SmallVec;
 
 /// The game. The cue ball is played from where it lies, and in hand anywhere without one.
 pub const GAME: Game = Game {
@@ -18,12 +20,7 @@ pub const GAME: Game = Game {
 
 /// Judges a finished shot: whatever it did, the same player goes on, until no object ball is left.
 pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal: true,
-        pocketed: shot.pocketed_balls(),
-        ..Verdict::default()
-    };
+    let verdict = verdict_on(state, shot, SmallVec::new());
     if is_table_cleared(state, shot) {
         return Verdict { turn: TurnAfter::End, ..verdict };
     }

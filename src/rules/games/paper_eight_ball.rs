@@ -5,7 +5,7 @@
 
 use crate::events::{BallInHand, Call, Foul, Group, Groups, Topic, TurnAfter, Verdict};
 use crate::ids::{BallId, PlayerId};
-use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::fouls::{self, Rule, committed, verdict_on};
 use crate::rules::game::Game;
 use crate::rules::shot::Shot;
 use crate::rules::state::State;
@@ -35,7 +35,7 @@ const FOULS: [(Foul, Rule); 9] = [
     (Foul::Scratch, fouls::scratch),
     (Foul::CueOff, fouls::cue_ball_off),
     (Foul::NoContact, fouls::no_contact),
-    (Foul::WrongFirst, wrong_first),
+    (Foul::WrongFirst, |state, shot| fouls::wrong_first(state, shot, may_be_first)),
     (Foul::BallOff, fouls::ball_off),
     (Foul::DoubleHit, fouls::double_hit),
     (Foul::TouchedBall, fouls::touched_ball),
@@ -45,18 +45,10 @@ const FOULS: [(Foul, Rule); 9] = [
 
 /// Judges a finished shot. A call means nothing in this game.
 pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
-    let fouls = committed(&FOULS, state, shot);
+    let fouls = committed(&[&FOULS], state, shot);
     let legal = fouls.is_empty();
     let groups = groups_after(state, shot, legal);
-
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal,
-        fouls,
-        groups: Some(groups),
-        pocketed: shot.pocketed_balls(),
-        ..Verdict::default()
-    };
+    let verdict = Verdict { groups: Some(groups), ..verdict_on(state, shot, fouls) };
 
     if let Some(winner) = winner(state, shot, legal) {
         Verdict { turn: TurnAfter::End, winner: Some(winner), ..verdict }
@@ -90,13 +82,6 @@ pub fn may_be_first(state: &State, ball: BallId) -> bool {
         (Some(group), Some(own)) => group == own,
         _ => true,
     }
-}
-
-/// Foul: the cue ball met a wrong ball first: an opponent's ball, or the 8 while own balls are
-/// left or the table is open. Of two balls met at the same time, the right one was first.
-fn wrong_first(state: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
 }
 
 /// Foul: the 8 fell after the break although the own group was not gone before the shot.

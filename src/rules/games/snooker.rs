@@ -15,7 +15,7 @@ use crate::events::{
     BallInHand, BallOn, ByPlayer, Call, Calls, Choice, Foul, Topic, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
-use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::fouls::{self, Rule, committed, verdict_on};
 use crate::rules::game::{Chosen, Game};
 use crate::rules::shot::Shot;
 use crate::rules::state::{Missed, State};
@@ -43,6 +43,9 @@ pub const GAME: Game = Game {
     ],
     has_score: true,
     is_practice: false,
+    // Balls are put back after a miss.
+    takes_back: 1,
+    knows_snookers: true,
     ends: "Settled, the black is down or fouled on and the points differ",
     in_hand: "Turn, cue ball in hand in the D",
 };
@@ -56,33 +59,18 @@ const PENALTY_MIN: i32 = 4;
 /// And at most this.
 const PENALTY_MAX: i32 = 7;
 
-/// What is a foul.
-const FOULS: [(Foul, Rule); 12] = [
-    (Foul::Scratch, fouls::scratch),
-    (Foul::CueOff, fouls::cue_ball_off),
+/// What is a foul besides [`fouls::ALWAYS`].
+const FOULS: [(Foul, Rule); 3] = [
     (Foul::NoContact, fouls::no_contact),
     (Foul::WrongFirst, wrong_first),
-    (Foul::BallOff, fouls::ball_off),
-    (Foul::DoubleHit, fouls::double_hit),
-    (Foul::Push, fouls::push),
-    (Foul::TouchedBall, fouls::touched_ball),
-    (Foul::BadPlacement, fouls::bad_placement),
-    (Foul::Moving, fouls::moving),
-    (Foul::OutOfTurn, fouls::out_of_turn),
     (Foul::BallNotOnPocketed, wrong_ball_fell),
 ];
 
 /// Judges a finished shot.
 pub fn judge(state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
     let state = &with_nomination(state, call, shot);
-    let fouls = committed(&FOULS, state, shot);
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal: fouls.is_empty(),
-        fouls,
-        pocketed: shot.pocketed_balls(),
-        ..Verdict::default()
-    };
+    let fouls = committed(&[&fouls::ALWAYS, &FOULS], state, shot);
+    let verdict = verdict_on(state, shot, fouls);
     let verdict = if verdict.legal {
         judge_clean(state, shot, verdict)
     } else {

@@ -12,7 +12,7 @@ use crate::events::{
     BallInHand, ByPlayer, Call, Calls, Choice, Foul, Racked, Topic, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, GameKind};
-use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::fouls::{self, Rule, committed, verdict_on};
 use crate::rules::game::{Chosen, Game};
 use crate::rules::shot::{Met, Shot};
 use crate::rules::state::State;
@@ -50,37 +50,21 @@ const FOULS_MAX: u8 = 3;
 /// So many turns in a row without a point are a stalemate. Long exchanges of safeties are none.
 const DRY_TURNS_MAX: u32 = 24;
 
-/// What is a foul. There is no wrong ball.
-const FOULS: [(Foul, Rule); 12] = [
-    (Foul::Scratch, fouls::scratch),
-    (Foul::CueOff, fouls::cue_ball_off),
+/// What is a foul besides [`fouls::ALWAYS`]. There is no wrong ball.
+const FOULS: [(Foul, Rule); 3] = [
     (Foul::NoContact, fouls::no_contact),
     (Foul::NoRail, no_rail),
-    (Foul::BallOff, fouls::ball_off),
-    (Foul::DoubleHit, fouls::double_hit),
-    (Foul::Push, fouls::push),
-    (Foul::TouchedBall, fouls::touched_ball),
-    (Foul::BadPlacement, fouls::bad_placement),
     (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, |_, _| true)),
-    (Foul::Moving, fouls::moving),
-    (Foul::OutOfTurn, fouls::out_of_turn),
 ];
 
 /// Judges a finished shot.
 pub fn judge(state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
-    let fouls = committed(&FOULS, state, shot);
-    let legal = fouls.is_empty();
+    let fouls = committed(&[&fouls::ALWAYS, &FOULS], state, shot);
     let is_made = is_made_as_called(state, call, shot);
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal,
-        fouls,
-        pocketed: shot.pocketed_balls(),
-        ..Verdict::default()
-    };
+    let verdict = verdict_on(state, shot, fouls);
     if state.is_break() && !is_made && !is_open_break(shot) {
         judge_breaking_foul(state, shot, verdict)
-    } else if !legal {
+    } else if !verdict.legal {
         judge_foul(state, shot, verdict)
     } else if is_made {
         judge_score(state, shot, verdict)

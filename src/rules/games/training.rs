@@ -2,9 +2,11 @@
 
 use crate::events::{BallInHand, Call, Racked, TurnAfter, Verdict};
 use crate::ids::GameKind;
-use crate::rules::game::Game;
+use crate::rules::fouls::verdict_on;
+use crate::rules::game::{Game, UNDO_SHOTS};
 use crate::rules::shot::Shot;
 use crate::rules::state::State;
+use smallvec::SmallVec;
 
 /// The game. The cue ball is played from where it lies, and in hand anywhere without one.
 pub const GAME: Game = Game {
@@ -14,6 +16,7 @@ pub const GAME: Game = Game {
     judge,
     after,
     is_practice: true,
+    takes_back: UNDO_SHOTS,
     ends: "never",
     in_hand: "Turn, cue ball in hand (it was gone)",
     ..Game::USUAL
@@ -27,18 +30,15 @@ pub fn judge(state: &State, _call: Option<&Call>, shot: &Shot) -> Verdict {
     let rack = is_table_cleared(state, shot).then_some(Racked::All);
     let is_gone = shot.cue_ball_is_gone();
     Verdict {
-        player: Some(state.player),
-        legal: true,
         turn: if goes_on { TurnAfter::Continue } else { TurnAfter::Pass },
         next_player: Some(player),
-        pocketed: shot.pocketed_balls(),
         // A new rack brings the cue ball as well.
         ball_in_hand: match rack {
             None if is_gone => BallInHand::Anywhere,
             _ => BallInHand::None,
         },
         rack,
-        ..Verdict::default()
+        ..verdict_on(state, shot, SmallVec::new())
     }
 }
 

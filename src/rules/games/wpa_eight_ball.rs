@@ -9,7 +9,7 @@ use crate::events::{
     BallInHand, Call, Calls, Choice, Foul, Group, Groups, Racked, Topic, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, GameKind};
-use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::fouls::{self, Rule, committed, verdict_on};
 use crate::rules::game::{Chosen, Game};
 use crate::rules::shot::Shot;
 use crate::rules::state::State;
@@ -35,46 +35,26 @@ pub const GAME: Game = Game {
     ..Game::USUAL
 };
 
-/// So many object balls must reach a rail on a break on which none falls.
-const DRIVEN_MIN: usize = 4;
-
 /// So many turns in a row without a pocketed object ball are a stalemate.
 const DRY_TURNS_MAX: u32 = 12;
 
-/// What is a foul on every shot.
-const ALWAYS: [(Foul, Rule); 11] = [
-    (Foul::Scratch, fouls::scratch),
-    (Foul::CueOff, fouls::cue_ball_off),
+/// What is a foul on every shot besides [`fouls::ALWAYS`].
+const EVERY_SHOT: [(Foul, Rule); 2] = [
     (Foul::NoContact, fouls::no_contact),
-    (Foul::BallOff, fouls::ball_off),
-    (Foul::DoubleHit, fouls::double_hit),
-    (Foul::Push, fouls::push),
-    (Foul::TouchedBall, fouls::touched_ball),
-    (Foul::BadPlacement, fouls::bad_placement),
     (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, may_be_first)),
-    (Foul::Moving, fouls::moving),
-    (Foul::OutOfTurn, fouls::out_of_turn),
 ];
 
 /// What is a foul as well, but on the break.
-const AFTER_BREAK: [(Foul, Rule); 2] =
-    [(Foul::WrongFirst, wrong_first), (Foul::NoRail, fouls::no_rail)];
+const AFTER_BREAK: [(Foul, Rule); 2] = [
+    (Foul::WrongFirst, |state, shot| fouls::wrong_first(state, shot, may_be_first)),
+    (Foul::NoRail, fouls::no_rail),
+];
 
 /// Judges a finished shot.
 pub fn judge(state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
-    let mut fouls = committed(&ALWAYS, state, shot);
-    if !state.is_break() {
-        fouls.extend(committed(&AFTER_BREAK, state, shot));
-    }
-    fouls.sort_unstable();
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal: fouls.is_empty(),
-        fouls,
-        groups: Some(groups(state)),
-        pocketed: shot.pocketed_balls(),
-        ..Verdict::default()
-    };
+    let after_break: &[(Foul, Rule)] = if state.is_break() { &[] } else { &AFTER_BREAK };
+    let fouls = committed(&[&fouls::ALWAYS, &EVERY_SHOT, after_break], state, shot);
+    let verdict = Verdict { groups: Some(groups(state)), ..verdict_on(state, shot, fouls) };
     if state.is_break() {
         judge_break(state, shot, verdict)
     } else if eight_is_gone(shot) {
@@ -121,7 +101,7 @@ fn judge_break(state: &State, shot: &Shot, verdict: Verdict) -> Verdict {
     if !shot.pocketed.is_empty() {
         return Verdict { turn: TurnAfter::Continue, next_player: Some(own), ..verdict };
     }
-    if is_illegal_break(shot) {
+    if fouls::is_weak_break(shot) {
         return Verdict {
             legal: false,
             fouls: smallvec![Foul::IllegalBreak],
@@ -189,18 +169,6 @@ fn may_be_first(state: &State, ball: BallId) -> bool {
         return own_group_is_gone(state);
     }
     own_group(state).is_none_or(|own| Group::of(ball) == Some(own) && !own_group_is_gone(state))
-}
-
-/// Foul: the cue ball met a wrong ball first. Of two balls met at the same time, the right one was
-/// first.
-fn wrong_first(state: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
-}
-
-/// Illegal: no object ball fell on the break, and fewer than four were driven to a rail.
-fn is_illegal_break(shot: &Shot) -> bool {
-    shot.pocketed.is_empty() && shot.driven().len() < DRIVEN_MIN
 }
 
 /// The 8 went down in another pocket than the called one, or none was called.

@@ -9,7 +9,7 @@ use crate::events::{
     BallInHand, Call, CallKind, Calls, Choice, Foul, Racked, ShotKind, Topic, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, GameKind};
-use crate::rules::fouls::{self, Rule, committed};
+use crate::rules::fouls::{self, Rule, committed, verdict_on};
 use crate::rules::game::{Chosen, Game};
 use crate::rules::shot::Shot;
 use crate::rules::state::State;
@@ -29,33 +29,21 @@ pub const GAME: Game = Game {
     ..Game::USUAL
 };
 
-/// So many object balls must reach a rail on a break on which none falls.
-const DRIVEN_MIN: usize = 4;
-
 /// So many fouls in a row lose.
 const FOULS_MAX: u8 = 3;
 
 /// So many turns in a row without a pocketed object ball are a stalemate.
 const DRY_TURNS_MAX: u32 = 12;
 
-/// What is a foul on every shot.
-const ALWAYS: [(Foul, Rule); 10] = [
-    (Foul::Scratch, fouls::scratch),
-    (Foul::CueOff, fouls::cue_ball_off),
-    (Foul::BallOff, fouls::ball_off),
-    (Foul::DoubleHit, fouls::double_hit),
-    (Foul::Push, fouls::push),
-    (Foul::TouchedBall, fouls::touched_ball),
-    (Foul::BadPlacement, fouls::bad_placement),
-    (Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, may_be_first)),
-    (Foul::Moving, fouls::moving),
-    (Foul::OutOfTurn, fouls::out_of_turn),
-];
+/// What is a foul on every shot besides [`fouls::ALWAYS`].
+const EVERY_SHOT: [(Foul, Rule); 1] =
+    [(Foul::Kitchen, |state, shot| fouls::kitchen(state, shot, may_be_first))];
 
-/// What is a foul as well, but on a push-out.
+/// What is a foul as well, but on a push-out. The ball to meet first is the lowest that was on the
+/// table before the shot.
 const UNLESS_PUSHED_OUT: [(Foul, Rule); 4] = [
     (Foul::NoContact, fouls::no_contact),
-    (Foul::WrongFirst, wrong_first),
+    (Foul::WrongFirst, |state, shot| fouls::wrong_first(state, shot, may_be_first)),
     (Foul::NoRail, no_rail),
     (Foul::IllegalBreak, illegal_break),
 ];
@@ -63,20 +51,11 @@ const UNLESS_PUSHED_OUT: [(Foul, Rule); 4] = [
 /// Judges a finished shot.
 pub fn judge(state: &State, call: Option<&Call>, shot: &Shot) -> Verdict {
     let is_push_out = is_push_out(state, call);
-    let mut fouls = committed(&ALWAYS, state, shot);
-    if !is_push_out {
-        fouls.extend(committed(&UNLESS_PUSHED_OUT, state, shot));
-    }
-    fouls.sort_unstable();
+    let unless_pushed_out: &[(Foul, Rule)] = if is_push_out { &[] } else { &UNLESS_PUSHED_OUT };
+    let fouls = committed(&[&fouls::ALWAYS, &EVERY_SHOT, unless_pushed_out], state, shot);
     let legal = fouls.is_empty();
-    let verdict = Verdict {
-        player: Some(state.player),
-        legal,
-        fouls,
-        pocketed: shot.pocketed_balls(),
-        fouls_after: fouls::in_a_row(state, legal),
-        ..Verdict::default()
-    };
+    let fouls_after = fouls::in_a_row(state, legal);
+    let verdict = Verdict { fouls_after, ..verdict_on(state, shot, fouls) };
     match (legal, is_push_out) {
         (false, _) => judge_foul(state, shot, verdict),
         (true, true) => judge_push_out(state, shot, verdict),
@@ -149,13 +128,6 @@ fn may_be_first(state: &State, ball: BallId) -> bool {
     state.shot == ShotKind::PushOut || state.on_table.first() == Some(&ball)
 }
 
-/// Foul: the cue ball met another ball first than the lowest that was on the table before the shot.
-/// Of two balls met at the same time, the right one was first.
-fn wrong_first(state: &State, shot: &Shot) -> bool {
-    !shot.first_contacts.is_empty()
-        && !shot.first_contacts.iter().any(|met| may_be_first(state, met.ball))
-}
-
 /// Foul, after the break: neither did a ball fall nor did one reach a rail after the contact.
 fn no_rail(state: &State, shot: &Shot) -> bool {
     !state.is_break() && fouls::no_rail(state, shot)
@@ -164,10 +136,7 @@ fn no_rail(state: &State, shot: &Shot) -> bool {
 /// Foul: a ball was met on the break, but none fell, and fewer than four object balls were driven
 /// to a rail. Without a contact that is the foul.
 fn illegal_break(state: &State, shot: &Shot) -> bool {
-    state.is_break()
-        && !shot.first_contacts.is_empty()
-        && shot.pocketed.is_empty()
-        && shot.driven().len() < DRIVEN_MIN
+    state.is_break() && !shot.first_contacts.is_empty() && fouls::is_weak_break(shot)
 }
 
 /// Stalemate: nobody has pocketed a ball for twelve turns; the original breaker breaks again.

@@ -3,9 +3,7 @@
 use super::account::Account;
 use super::play::Tally;
 use super::script::{cushion, down, met, struck};
-use hapticbillard::events::{
-    BallInHand, ByPlayer, Call, Choice, Command, Event, Fact, FactKind, Source, Zone,
-};
+use hapticbillard::events::{ByPlayer, Call, Choice, Command, Event, Fact, FactKind, Source};
 use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::ids::{BallId, PlayerId, PocketId, Rail};
 use hapticbillard::rules::{GameKind, Phase, Referee, State, game};
@@ -105,12 +103,7 @@ fn one_shot(
         referee.obey(Source::Input, &Command::Call(call.clone()));
     }
     let mut facts: Vec<Fact> = Vec::new();
-    let zone = match referee.state().ball_in_hand {
-        BallInHand::None => None,
-        BallInHand::Kitchen => Some(Zone::Kitchen),
-        BallInHand::Anywhere => Some(Zone::Anywhere),
-        BallInHand::D => Some(Zone::D),
-    };
+    let zone = referee.state().ball_in_hand.zone();
     let ball = referee.state().cue_ball;
     let placed = zone.map(|zone| FactKind::BallPlaced { ball, zone, ok: true });
     let settled = FactKind::Settled { snookered: false, cue_in_rack: false };

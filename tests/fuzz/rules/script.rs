@@ -1,7 +1,7 @@
 //! Shots as good players make them: a legal ball first, a rail, the called ball in its pocket, and
 //! now and then a mistake. Without them a random game would hardly ever get beyond its break.
 
-use hapticbillard::events::{BallInHand, Call, CallKind, Command, FactKind, Zone};
+use hapticbillard::events::{Call, CallKind, Command, FactKind};
 use hapticbillard::ids::{BallId, PocketId, Rail};
 use hapticbillard::rules::{GameKind, Phase, Referee, game, legal_first};
 use rand::{Rng, RngExt};
@@ -36,12 +36,7 @@ impl Script {
         self.0.clear();
         let state = referee.state();
         let cue_ball = state.cue_ball;
-        let zone = match state.ball_in_hand {
-            BallInHand::None => None,
-            BallInHand::Kitchen => Some(Zone::Kitchen),
-            BallInHand::Anywhere => Some(Zone::Anywhere),
-            BallInHand::D => Some(Zone::D),
-        };
+        let zone = state.ball_in_hand.zone();
         if let (Phase::Placing, Some(zone)) = (referee.phase(), zone) {
             self.happen(FactKind::BallPlaced { ball: cue_ball, zone, ok: true });
         }
