@@ -18,6 +18,7 @@ mod realtime_kit;
 mod recording;
 mod rights;
 mod seat;
+mod spool;
 mod stylus;
 mod telemetry;
 mod thread;

@@ -1,13 +1,11 @@
 //! Recordings of devices as files.
 //!
-//! What a device says goes into a ring, and a thread of its own writes it down. The servo never
-//! touches the file. A full ring loses readings, which are counted; the time that they took is
-//! kept. The file has its name only when it is whole; what a crash leaves behind is named `….part`,
-//! and holds all but the last hundredth of a second.
+//! A full ring loses readings, which are counted; the time that they took is kept.
 
 use super::device::{NoDevice, Opened};
+use super::spool::Spool;
 use crate::error::Error;
-use crate::files::{LineWriter, open_lines};
+use crate::files::open_lines;
 use hapticbillard::haptic::{
     Device, DeviceRecording, DeviceSpec, DeviceState, Force, READINGS_MAX, Reading,
     RecordingReader, RecordingWriter,
@@ -16,14 +14,10 @@ use hapticbillard::units::Seconds;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::thread::JoinHandle;
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Readings that wait at most, should the disk stall: a minute.
 const WAITING: usize = 1 << 16;
-/// How long the writer sleeps.
-const SLEEP: Duration = Duration::from_millis(10);
 
 /// So much of a line is read [bytes]; longer ones are refused.
 const LINE_BYTES: u64 = 8192;
@@ -52,22 +46,16 @@ pub fn load(path: &Path) -> Result<DeviceRecording, NoDevice> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Recorded {
     /// Readings in the file.
-    pub readings: usize,
+    pub readings: u64,
     /// Readings that found the ring full, or came after the longest recording.
     pub lost: u64,
 }
 
 /// A recording that grows.
-#[must_use = "finish it, or it may not get its name"]
+#[must_use = "finish it, or nobody hears whether it is whole"]
 pub struct DeviceRecorder {
-    shared: Arc<Shared>,
-    thread: JoinHandle<Result<usize, Error>>,
-}
-
-#[derive(Default)]
-struct Shared {
-    is_over: AtomicBool,
-    lost: AtomicU64,
+    lost: Arc<AtomicU64>,
+    spool: Spool,
 }
 
 impl DeviceRecorder {
@@ -76,21 +64,22 @@ impl DeviceRecorder {
     /// # Errors
     /// [`Error::Write`] if the file cannot be created.
     pub fn tap(opened: Opened, path: PathBuf) -> Result<(Opened, DeviceRecorder), Error> {
-        let mut file = LineWriter::create(path.clone())?;
-        file.line(&RecordingWriter::head(&opened.device.spec()))?;
-        let (ring, readings) = rtrb::RingBuffer::new(WAITING);
-        let shared = Arc::<Shared>::default();
-        let writer = Writer { file, readings, lines: RecordingWriter::default(), written: 0 };
-        let thread = {
-            let shared = shared.clone();
-            let builder = std::thread::Builder::new().name("device recorder".to_string());
-            builder
-                .spawn(move || writer.run(&shared))
-                .map_err(|reason| Error::Write { path, reason })?
+        let head = RecordingWriter::head(&opened.device.spec());
+        let lost = Arc::<AtomicU64>::default();
+        let (mut lines, mut readings) = (RecordingWriter::default(), 0);
+        let too_many = lost.clone();
+        let line = move |reading: &Reading| {
+            readings += 1;
+            if readings > READINGS_MAX {
+                too_many.fetch_add(1, Ordering::Relaxed);
+                return None;
+            }
+            Some(lines.line(reading))
         };
-        let device = Tap { device: opened.device, ring, behind_s: 0.0, shared: shared.clone() };
+        let (spool, ring) = Spool::begin("recording", &path, &head, WAITING, line)?;
+        let device = Tap { device: opened.device, ring, behind_s: 0.0, lost: lost.clone() };
         let opened = Opened { device: Box::new(device), ..opened };
-        Ok((opened, DeviceRecorder { shared, thread }))
+        Ok((opened, DeviceRecorder { lost, spool }))
     }
 
     /// Writes what is left, and gives the file its name.
@@ -98,40 +87,8 @@ impl DeviceRecorder {
     /// # Errors
     /// [`Error::Write`] if it could not be written whole.
     pub fn finish(self) -> Result<Recorded, Error> {
-        self.shared.is_over.store(true, Ordering::Release);
-        let written = self.thread.join().unwrap_or_else(|_| {
-            Err(Error::input("the recording", "its thread ended", "report this as a defect"))
-        });
-        Ok(Recorded { readings: written?, lost: self.shared.lost.load(Ordering::Acquire) })
-    }
-}
-
-struct Writer {
-    file: LineWriter,
-    readings: rtrb::Consumer<Reading>,
-    lines: RecordingWriter,
-    written: usize,
-}
-
-impl Writer {
-    fn run(mut self, shared: &Shared) -> Result<usize, Error> {
-        loop {
-            // Looked at first: what comes before it is still written.
-            let is_over = shared.is_over.load(Ordering::Acquire) || self.readings.is_abandoned();
-            while let Ok(reading) = self.readings.pop() {
-                if self.written < READINGS_MAX {
-                    self.file.line(&self.lines.line(&reading))?;
-                    self.written += 1;
-                } else {
-                    shared.lost.fetch_add(1, Ordering::Relaxed);
-                }
-            }
-            if is_over {
-                self.file.finish()?;
-                return Ok(self.written);
-            }
-            std::thread::sleep(SLEEP);
-        }
+        let readings = self.spool.finish()?;
+        Ok(Recorded { readings, lost: self.lost.load(Ordering::Acquire) })
     }
 }
 
@@ -141,7 +98,7 @@ struct Tap {
     ring: rtrb::Producer<Reading>,
     /// Time of readings that were lost [s].
     behind_s: Seconds,
-    shared: Arc<Shared>,
+    lost: Arc<AtomicU64>,
 }
 
 impl Device for Tap {
@@ -155,7 +112,7 @@ impl Device for Tap {
             self.behind_s = 0.0;
         } else {
             self.behind_s += dt;
-            self.shared.lost.fetch_add(1, Ordering::Relaxed);
+            self.lost.fetch_add(1, Ordering::Relaxed);
         }
         state
     }

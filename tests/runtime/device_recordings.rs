@@ -56,7 +56,7 @@ fn a_full_ring_loses_readings_and_no_time() {
     readings(&mut opened, n);
     let recorded = recorder.finish().unwrap();
     assert!(recorded.lost > 0, "this machine writes fast");
-    assert_eq!(recorded.readings as u64 + recorded.lost, u64::from(n));
+    assert_eq!(recorded.readings + recorded.lost, u64::from(n));
     let (mut time_s, mut dt) = (0.0, 0.0);
     for line in fs::read_to_string(&file).unwrap().lines().skip(1) {
         let row: serde_json::Value = serde_json::from_str(line).unwrap();
