@@ -1,8 +1,8 @@
 //! What a servo tells, as the lines of a file, written by a thread of its own.
 //!
-//! The servo puts an entry into a ring and never touches the file. What finds the ring full is lost;
-//! whoever puts it in counts that. The file has its name only when it is whole; what a crash leaves
-//! behind is named `….part`, and holds all but the last hundredth of a second.
+//! The servo puts an entry into a ring and never touches the file. What finds the ring full is
+//! lost; whoever puts it in counts that. The file has its name only when it is whole; what a crash
+//! leaves behind is named `….part`, and holds all but the last hundredth of a second.
 
 use crate::error::Error;
 use crate::files::LineWriter;

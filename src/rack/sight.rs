@@ -1,9 +1,11 @@
 //! Whether a player is snookered: what can be hit in a straight line.
 
-use super::{Occupied, Spots};
+use super::Spots;
+use crate::events::Spotting;
 use crate::ids::BallId;
 use crate::table::Bed;
 use glam::DVec2;
+use smallvec::SmallVec;
 
 /// Rings of places in the D from which a cue ball in hand is tried, and places on the outermost:
 /// 29 mm apart on a full-size table.
@@ -44,13 +46,10 @@ impl Sight {
         let mut balls: Vec<(BallId, DVec2)> =
             lying.iter().copied().filter(|(ball, _)| !spot.contains(ball)).collect();
         let cue = cue_ball.map(|at| (BallId::CUE, at));
-        let mut occupied: Vec<Occupied> =
-            balls.iter().copied().chain(cue).map(|(id, at)| (id, at, self.radius_m)).collect();
-        for ball in self.spots.in_order(&self.bed, spot, &occupied, self.radius_m) {
-            let at = self.spots.place(&self.bed, ball, BallId::CUE, &occupied, self.radius_m);
-            balls.push((ball, at));
-            occupied.push((ball, at, self.radius_m));
-        }
+        let lie = balls.iter().copied().chain(cue).map(|(id, at)| (id, at, self.radius_m));
+        let spotting = Spotting { balls: SmallVec::from_slice(spot), cue_ball: BallId::CUE };
+        let radius_m = |_| Some(self.radius_m);
+        balls.extend(self.spots.places(&self.bed, &spotting, lie.collect(), radius_m));
         balls
     }
 

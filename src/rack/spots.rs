@@ -2,6 +2,7 @@
 
 use super::carom::carom_spot;
 use super::{nearest_on_line, spot_position};
+use crate::events::Spotting;
 use crate::ids::BallId;
 use crate::table::Bed;
 use glam::DVec2;
@@ -64,6 +65,31 @@ impl Spots {
             Spots::Foot | Spots::Snooker => spot_position(bed, occupied, radius_m),
             Spots::Carom => carom_spot(bed, cue_ball, ball, occupied, radius_m),
         }
+    }
+
+    /// Where balls are spotted, in the order in which that is done, each among all that `lie` there
+    /// and those before it. None of them is if nobody knows the first.
+    pub fn places(
+        self,
+        bed: &Bed,
+        Spotting { balls, cue_ball }: &Spotting,
+        mut lie: Vec<Occupied>,
+        radius_m: impl Fn(BallId) -> Option<f64>,
+    ) -> Vec<(BallId, DVec2)> {
+        let Some(first_m) = balls.first().and_then(|ball| radius_m(*ball)) else {
+            return Vec::new();
+        };
+        let others: Vec<Occupied> =
+            lie.iter().copied().filter(|(ball, ..)| !balls.contains(ball)).collect();
+        let mut places = Vec::new();
+        for ball in self.in_order(bed, balls, &others, first_m) {
+            let Some(radius_m) = radius_m(ball) else { continue };
+            lie.retain(|(other, ..)| *other != ball);
+            let place = self.place(bed, ball, *cue_ball, &lie, radius_m);
+            lie.push((ball, place, radius_m));
+            places.push((ball, place));
+        }
+        places
     }
 
     fn colour_spot(self, bed: &Bed, ball: BallId, occupied: &[Occupied], radius_m: f64) -> DVec2 {

@@ -8,7 +8,6 @@ use crate::cue::CuePath;
 use crate::events::{Command, FactKind, Spotting, TouchedBy, Zone};
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, checks, tolerance};
-use crate::rack::Occupied;
 use crate::units::Seconds;
 use glam::DVec2;
 use std::sync::Arc;
@@ -168,23 +167,16 @@ impl FixedStep {
     }
 
     /// Puts balls back on their spots, or where they belong if there is no room.
-    fn spot_balls(&mut self, Spotting { balls, cue_ball }: &Spotting) {
+    fn spot_balls(&mut self, spotting: &Spotting) {
         let (Some(bed), spots) = (self.ground.bed, self.ground.spots) else { return };
-        let Some(first) = balls.first().and_then(|ball| self.index(*ball)) else { return };
-        let radius = self.bodies[first].ball.radius_m;
-        for ball in spots.in_order(&bed, balls, &self.occupied(balls), radius) {
-            let Some(index) = self.index(ball) else { continue };
-            let radius = self.bodies[index].ball.radius_m;
-            let place = spots.place(&bed, ball, *cue_ball, &self.occupied(&[ball]), radius);
-            self.put_down(index, place);
-        }
-    }
-
-    /// The solid balls but these.
-    fn occupied(&self, without: &[BallId]) -> Vec<Occupied> {
-        let others =
-            self.bodies.iter().filter(|body| body.solid() && !without.contains(&body.ball.id));
+        let solid = self.bodies.iter().filter(|body| body.solid());
         let lies = |body: &Body| (body.ball.id, body.position.truncate(), body.ball.radius_m);
-        others.map(lies).collect()
+        let lie = solid.map(lies).collect();
+        let radius_m = |ball| Some(self.bodies[self.index(ball)?].ball.radius_m);
+        for (ball, place) in spots.places(&bed, spotting, lie, radius_m) {
+            if let Some(index) = self.index(ball) {
+                self.put_down(index, place);
+            }
+        }
     }
 }
