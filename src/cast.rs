@@ -103,8 +103,7 @@ impl Cast {
             let pockets = table.pockets.clone();
             players.push(Player::new(id, settings, bed, pockets, radius_m, clearance));
         }
-        let stands_in = scene.actors.as_ref().is_some_and(|actors| actors.input.is_some());
-        let human = (scene.input.is_some() && !stands_in).then(|| {
+        let human = scene.has_hand().then(|| {
             Human::new(scene.human_players(), table.clone())
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)

@@ -1,6 +1,6 @@
 //! Telemetry: every tick of the servo as a line of a file.
 
-use super::ports::TickTold;
+use super::ports::{TickTold, Watch};
 use super::spool::Spool;
 use super::timing::Timing;
 use crate::error::Error;
@@ -42,17 +42,18 @@ pub struct Telemetry {
 }
 
 impl Telemetry {
-    /// Begins a file, and gives the servo's end. Ticks that are lost are counted in `timing`.
+    /// Begins a file, if one is wanted, and lets the servo of `watch` tell it every tick. Ticks that
+    /// are lost are counted in its timing.
     ///
     /// # Errors
     /// [`Error`] if the file cannot be created, or there is no thread.
-    pub fn begin(
-        path: &Path,
-        timing: Arc<Timing>,
-    ) -> Result<(Self, rtrb::Producer<TickTold>), Error> {
+    pub fn of(watch: &mut Watch, path: Option<&Path>) -> Result<Option<Self>, Error> {
+        let Some(path) = path else { return Ok(None) };
         let line = |told: &TickTold| Some(row(&told.report, told.late_ns as f64 * 1e-9));
         let (spool, port) = Spool::begin("telemetry", path, COLUMNS, WAITING, line)?;
-        Ok((Telemetry { path: path.to_path_buf(), timing, spool }, port))
+        watch.telemetry = Some(port);
+        let timing = watch.timing.clone();
+        Ok(Some(Telemetry { path: path.to_path_buf(), timing, spool }))
     }
 
     /// Writes what still waits and gives the file its name.

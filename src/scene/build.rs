@@ -134,6 +134,12 @@ impl Scene {
         super::check::misfit(self, game)
     }
 
+    /// Whether somebody sits at mouse and keyboard, and nothing stands in.
+    pub fn has_hand(&self) -> bool {
+        let stands_in = self.actors.as_ref().is_some_and(|actors| actors.input.is_some());
+        self.input.is_some() && !stands_in
+    }
+
     /// The players whose commands come from the input: at a mouse, or from a recording.
     pub fn human_players(&self) -> Vec<PlayerId> {
         let ids = [PlayerId::ONE, PlayerId::TWO];

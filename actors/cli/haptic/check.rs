@@ -175,14 +175,7 @@ fn felt(stage: &Stage, args: &CheckArgs, asked: Asked) -> Result<Checked, Error>
     // Ctrl-C ends it early, and in order.
     let stop = stop_at_interrupt();
     let mut watch = Watch::default();
-    let telemetry = match &args.telemetry {
-        None => None,
-        Some(file) => {
-            let (telemetry, port) = Telemetry::begin(file, watch.timing.clone())?;
-            watch.telemetry = Some(port);
-            Some(telemetry)
-        }
-    };
+    let telemetry = Telemetry::of(&mut watch, args.telemetry.as_deref())?;
     let Started { seat, mut world, .. } = Seat::start_watched(plan, watch)?;
     let mut held = seat.hold();
     let end = Instant::now() + Duration::from_secs_f64(args.seconds);

@@ -34,14 +34,7 @@ pub fn felt(stage: &Stage, leads: bool, file: Option<&Path>) -> Result<Option<Wa
     let mut watch = Watch::default();
     let (picture, report) = triple_buffer::triple_buffer(&ServoReport::default());
     watch.picture = Some(picture);
-    let telemetry = match file {
-        None => None,
-        Some(file) => {
-            let (telemetry, port) = Telemetry::begin(file, watch.timing.clone())?;
-            watch.telemetry = Some(port);
-            Some(telemetry)
-        }
-    };
+    let telemetry = Telemetry::of(&mut watch, file)?;
     let spec = plan.opened.device.spec();
     let tool = if stage.scene.cue.is_some() { FeltTool::Cue } else { FeltTool::Stylus };
     let shown = FeltSetup {

@@ -51,7 +51,7 @@ pub fn play_in_window(
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
     let record = recording(args);
-    let mut felt = felt(stage, stage.cast()?.human.is_none(), args.telemetry.as_deref())?;
+    let mut felt = felt(stage, !stage.scene.has_hand(), args.telemetry.as_deref())?;
     let telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
     let (record_device, speed) = (args.record_device.clone(), args.speed);
     let finished = match shown(stage, None, felt, record.clone(), record_device, speed)? {
