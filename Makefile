@@ -3,7 +3,7 @@
 
 # What a window, pictures without a window, and their tests need from the system.
 PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcursor1 libxi6 \
-	libxrandr2 libxkbcommon-x11-0 pkg-config
+	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev
 CARGO := cargo
 
 .PHONY: play test report window peers setup early featureless lints everything documents package

@@ -1,0 +1,8 @@
+//! What is heard, as plain data and arithmetic: everything about sound but the sound card.
+//!
+//! An [`Onset`] is a sound that begins, told by a fact; [`Rolling`] is the newest state of a ball
+//! that rolls or slides. Both are plain values, so that a ring can carry them to an audio callback.
+
+mod onset;
+
+pub use onset::{Onset, Rolling, SoundClass};
