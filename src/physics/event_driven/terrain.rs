@@ -374,6 +374,23 @@ impl Terrain {
         found
     }
 
+    /// Leaves out of a list of contacts the borders of what else is in it: where the foot of a ball
+    /// lies inside of a face its edges are farther away, by less than what counts as touching only
+    /// because the foot is near them; and so are the ends of an edge. The ball turns from one to
+    /// the other in one contact, not in two.
+    pub fn leave_out_borders(&self, contacts: &mut SmallVec<[(Feature, DVec3, f64); 4]>) {
+        if contacts.len() < 2 {
+            return;
+        }
+        let of = |border: Feature, inner: Feature| match (border, inner) {
+            (Feature::Edge(_) | Feature::Corner(_), Feature::Patch(_))
+            | (Feature::Corner(_), Feature::Edge(_)) => self.belongs(border, inner),
+            _ => false,
+        };
+        let all = contacts.clone();
+        contacts.retain(|(feature, _, _)| !all.iter().any(|(other, _, _)| of(*feature, *other)));
+    }
+
     /// What a ball that the main patch carries has in reach, if it is as large as the largest.
     fn zone_around(&self, centre: DVec3) -> Option<InReach<'_>> {
         let plans = self.plans.as_ref()?;

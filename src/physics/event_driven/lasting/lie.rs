@@ -18,6 +18,7 @@ impl EventDriven {
         let reach = radius + 4.0 * TOUCH_M;
         let mut contacts: Contacts = self.terrain.near(centre, reach);
         contacts.retain(|contact| !parts(contact, velocity));
+        self.terrain.leave_out_borders(&mut contacts);
         for (_, normal, distance) in &contacts {
             centre += *normal * (radius - distance);
         }
