@@ -18,6 +18,7 @@ pub mod mathavan_2014;
 pub mod one_ball;
 pub mod paper_2009;
 pub mod speed_friction;
+pub mod wedge;
 
 use crate::ball::Ball;
 use glam::DVec3;

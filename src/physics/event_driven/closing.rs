@@ -103,6 +103,7 @@ fn next_press_m(depth_m: f64) -> f64 {
 }
 
 /// First time in `[0, horizon]` at which h + v τ + ½ a τ² is not positive and falls.
+#[inline]
 pub fn falling_quadratic(h: f64, v: f64, a: f64, horizon: Seconds) -> Option<Seconds> {
     if h <= 0.0 && (v < 0.0 || v == 0.0 && a < 0.0) {
         return Some(0.0);

@@ -106,7 +106,7 @@ impl EventDriven {
             }
             (Some((carrier, cloth)), []) => {
                 let (own, bed) = match surface {
-                    Surface::Cushion(_) => choice::cushion_and_bed(
+                    Surface::Cushion(_) => choice::cushion_and_bed_directly(
                         &mut mover,
                         normal,
                         carrier,
@@ -114,7 +114,7 @@ impl EventDriven {
                         cloth,
                         &self.parameters,
                     ),
-                    _ => cushion::bounce(&mut mover, normal, carrier, law, cloth),
+                    _ => cushion::bounce_directly(&mut mover, normal, carrier, law, cloth),
                 };
                 self.ledger.momentum.table += own.impulse + bed.impulse;
                 self.ledger.cloth_j += bed.loss_j;

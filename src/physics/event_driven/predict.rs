@@ -108,7 +108,11 @@ impl EventDriven {
             return none;
         }
         let until = body.segment.end_s.min(body.own_s());
-        let (mut from, sinks) = (after, !self.terrain.pockets.is_empty());
+        let falls = matches!(body.segment.course, Course::Flying | Course::Lasting);
+        let (mut from, sinks) = (after, falls && !self.terrain.pockets.is_empty());
+        if !body.behind && !sinks {
+            return none;
+        }
         loop {
             let body = &self.bodies[index];
             let piece = body.segment.stretch(from, until);
@@ -123,9 +127,7 @@ impl EventDriven {
             {
                 best = (from + time, Report::HeadString);
             }
-            let sinks = sinks
-                && matches!(body.segment.course, Course::Flying | Course::Lasting)
-                && x.z > -radius + tolerance::PUSH_OUT_M;
+            let sinks = sinks && x.z > -radius + tolerance::PUSH_OUT_M;
             self.work.pocket_tests += u64::from(sinks);
             if sinks
                 && let Some(time) = closing::falling_quadratic(x.z + radius, v.z, a.z, horizon)

@@ -123,6 +123,14 @@ impl Span {
     }
 }
 
+/// What a level path says about a level edge.
+enum Level {
+    Never,
+    At(Seconds),
+    /// The path or the edge is not level, or the ball is only pressed against it.
+    Unknown,
+}
+
 /// Where a walk over the plan ended.
 enum Reached {
     Meeting(Meeting),
@@ -225,18 +233,25 @@ impl Walk<'_> {
         until: Seconds,
         (min, max): (DVec3, DVec3),
     ) -> (Seconds, Option<(usize, bool)>) {
-        let position = self.segment.position_at(now);
-        let velocity = self.segment.velocity_at(now);
-        let acceleration = self.segment.acceleration;
+        let horizon = until - now;
+        let position = self.segment.position_at(now).to_array();
+        let velocity = self.segment.velocity_at(now).to_array();
+        let acceleration = self.segment.acceleration.to_array();
+        let (min, max) = (min.to_array(), max.to_array());
         let mut best = (until, None);
         for axis in 0..3 {
             let (x, v, a) = (position[axis], velocity[axis], acceleration[axis]);
-            if v == 0.0 && a == 0.0 {
-                continue;
-            }
-            for (up, gap, v, a) in [(true, max[axis] - x, -v, -a), (false, x - min[axis], v, a)] {
-                if gap.is_finite()
-                    && let Some(time) = closing::falling_quadratic(gap, v, a, best.0 - now)
+            // Which sides it crosses at all, its ends and the turn between them say without a root.
+            let end = x + (v + 0.5 * a * horizon) * horizon;
+            let turns = v * a < 0.0 && v.abs() < a.abs() * horizon;
+            let turn = if turns { x - 0.5 * v * v / a } else { x };
+            for (up, gap, v, a) in [
+                (true, max[axis] - x.max(end).max(turn), -v, -a),
+                (false, x.min(end).min(turn) - min[axis], v, a),
+            ] {
+                let start = if up { max[axis] - x } else { x - min[axis] };
+                if gap < 0.0
+                    && let Some(time) = closing::falling_quadratic(start, v, a, best.0 - now)
                     && (now + time < best.0 || best.1.is_none())
                 {
                     best = (now + time, Some((axis, up)));
@@ -361,19 +376,52 @@ impl Walk<'_> {
     fn edge(&self, number: u32, slice: &Slice, work: &mut Work) -> Option<(Seconds, DVec3)> {
         let edge = &self.terrain.edges[number as usize];
         work.face_tests += 1;
-        let across = |v: DVec3| v - edge.along * v.dot(edge.along);
-        let motion = Relative {
-            offset: across(slice.position - edge.from),
-            velocity: across(slice.velocity),
-            acceleration: across(slice.acceleration),
+        let time = match self.level_edge(edge, slice) {
+            Level::Never => return None,
+            Level::At(time) => time,
+            Level::Unknown => {
+                let across = |v: DVec3| v - edge.along * v.dot(edge.along);
+                let motion = Relative {
+                    offset: across(slice.position - edge.from),
+                    velocity: across(slice.velocity),
+                    acceleration: across(slice.acceleration),
+                };
+                closing::spheres(&motion, self.radius_m, slice.length)?
+            }
         };
-        let time = closing::spheres(&motion, self.radius_m, slice.length)?;
         let centre = slice.at(time);
         let along = (centre - edge.from).dot(edge.along);
         if !(0.0 <= along && along <= edge.length_m) {
             return None;
         }
         Some((time, (centre - edge.from - edge.along * along).normalize_or(DVec3::Z)))
+    }
+
+    /// When a ball whose centre stays at one height meets a level edge, such as a cushion's nose:
+    /// seen along the edge the centre goes straight to the place where the ball touches, and a
+    /// quadratic says when. What is as slow as a press is left to the general way.
+    fn level_edge(&self, edge: &Edge, slice: &Slice) -> Level {
+        if slice.velocity.z != 0.0 || slice.acceleration.z != 0.0 || edge.along.z != 0.0 {
+            return Level::Unknown;
+        }
+        let offset = slice.position - edge.from;
+        let square = self.radius_m * self.radius_m - offset.z * offset.z;
+        if square <= 0.0 {
+            return Level::Never;
+        }
+        let away = edge.along.truncate().perp();
+        let distance = away.dot(offset.truncate());
+        let away = if distance < 0.0 { -away } else { away };
+        let touch = square.sqrt();
+        let (v, a) = (away.dot(slice.velocity.truncate()), away.dot(slice.acceleration.truncate()));
+        let gap = distance.abs() - touch;
+        match closing::falling_quadratic(gap, v, a, slice.length) {
+            None => Level::Never,
+            Some(time) if -(v + a * time) * touch >= tolerance::STRUCK_M_S * self.radius_m => {
+                Level::At(time)
+            }
+            Some(_) => Level::Unknown,
+        }
     }
 
     /// When the foot of a carried ball crosses an edge of the patch that carries it, outwards.

@@ -125,6 +125,26 @@ pub fn cushion_and_bed(
     }
 }
 
+/// The same, equal but for rounding, by [`cushion::bounce_directly`]. The stepper keeps to the
+/// other way, on which the bits of its recordings rest.
+pub fn cushion_and_bed_directly(
+    ball: &mut Mover,
+    normal: DVec3,
+    support: DVec3,
+    contact: Contact,
+    cloth: Contact,
+    parameters: &Parameters,
+) -> (Impact, Impact) {
+    match parameters.cushion_law {
+        CushionLaw::Mathavan2010 => {
+            cushion_and_bed(ball, normal, support, contact, cloth, parameters)
+        }
+        CushionLaw::Combined | CushionLaw::Han2005 => {
+            cushion::bounce_directly(ball, normal, support, contact, cloth)
+        }
+    }
+}
+
 /// The contacts of a cluster, by the rule of `parameters`; `gaps_m` are the distances of the
 /// surfaces. Returns whether none closes any more.
 pub fn several(

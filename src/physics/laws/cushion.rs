@@ -5,8 +5,9 @@
 //! the restitution of a landing would throw the ball up, which no table does.
 
 use super::cluster::{self, Touch};
-use super::{Impact, Mover};
-use crate::physics::Contact;
+use super::one_ball::Surface;
+use super::{Impact, Mover, wedge};
+use crate::physics::{Contact, tolerance};
 use glam::DVec3;
 
 /// Resolves the contact of a carried ball with a cushion, or with any other fixed surface.
@@ -35,6 +36,38 @@ pub fn bounce(
     cluster::resolve(core::slice::from_mut(ball), &mut touches);
     let impact = |t: &Touch| Impact { impulse: t.impulse, sticks: false, loss_j: t.loss_j };
     (impact(&touches[0]), impact(&touches[1]))
+}
+
+/// The same law, directly where [`wedge`] knows the answer: equal but for rounding, and quicker.
+pub fn bounce_directly(
+    ball: &mut Mover,
+    normal: DVec3,
+    support: DVec3,
+    cushion: Contact,
+    cloth: Contact,
+) -> (Impact, Impact) {
+    let before = *ball;
+    let approach = -ball.surface_velocity(normal).dot(normal);
+    if approach > tolerance::CLOSING_M_S {
+        let target_m_s = cushion.restitution * approach;
+        let struck = Surface { normal, target_m_s, friction: cushion.friction };
+        let bed = Surface { normal: support, target_m_s: 0.0, friction: cloth.friction };
+        if let Some([own, carried]) = wedge::solve(ball, &struck, &bed) {
+            ball.push(normal, own);
+            ball.push(support, carried);
+            let impact = |normal: DVec3, impulse: DVec3| {
+                let slips = before.surface_velocity(normal) + ball.surface_velocity(normal);
+                Impact { impulse, sticks: false, loss_j: -0.5 * impulse.dot(slips) }
+            };
+            let both = (impact(normal, own), impact(support, carried));
+            // What would add energy is tempered there.
+            if both.0.loss_j + both.1.loss_j >= 0.0 {
+                return both;
+            }
+            *ball = before;
+        }
+    }
+    bounce(ball, normal, support, cushion, cloth)
 }
 
 #[cfg(test)]
