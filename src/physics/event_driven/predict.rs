@@ -203,6 +203,7 @@ impl EventDriven {
     }
 
     /// Position and velocity of a ball's centre [m, m/s].
+    #[inline]
     fn way_at(&self, index: usize, at: Seconds) -> (DVec3, DVec3) {
         let path = &self.paths[index];
         if path.swings {
@@ -213,6 +214,7 @@ impl EventDriven {
     }
 
     /// Centre of a ball [m].
+    #[inline]
     pub(super) fn centre_at(&self, index: usize, at: Seconds) -> DVec3 {
         self.way_at(index, at).0
     }

@@ -87,7 +87,10 @@ struct Walk<'a> {
 }
 
 /// A stretch of the path inside one cell.
+#[derive(Clone, Copy)]
 struct Slice {
+    /// When it begins [s].
+    start: Seconds,
     length: Seconds,
     position: DVec3,
     velocity: DVec3,
@@ -173,113 +176,70 @@ impl Walk<'_> {
     }
 
     fn over_plan(&self, plan: &Plan, from: Seconds, until: Seconds, work: &mut Work) -> Reached {
-        let mut now = from;
-        let mut zone = plan.zone_at(self.segment.position_at(now).truncate());
+        let mut slice = self.slice(from, until);
+        let mut zone = plan.zone_at(slice.position.truncate());
         while let Some(here) = zone {
             let (min, max) = (here.min.extend(f64::NEG_INFINITY), here.max.extend(f64::INFINITY));
-            let (exit, next) = self.exit(now, until, (min, max));
+            let next = slice.cut_at(min, max);
             let lists = plan.in_zone(here);
             if !lists.is_empty()
-                && let Some(meeting) = self.search(&lists, now, exit, work)
+                && let Some(meeting) = self.search(&lists, slice, work)
             {
                 return Reached::Meeting(meeting);
             }
             let Some((axis, up)) = next else { return Reached::End };
-            now = exit;
-            zone = plan.beyond(here, self.segment.position_at(now).truncate(), axis, up);
+            slice = self.slice(slice.end(), until);
+            zone = plan.beyond(here, slice.position.truncate(), axis, up);
         }
-        Reached::Border(now)
+        Reached::Border(slice.start)
     }
 
     fn run(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
         let on_main = self.held.len() == 1 && self.held[0] == self.terrain.main_patch();
-        let mut now = from;
-        let mut cell = self.terrain.place_of(self.segment.position_at(now));
+        let mut slice = self.slice(from, until);
+        let mut cell = self.terrain.place_of(slice.position);
         loop {
             let block = self.terrain.block_at(cell, on_main);
-            let (exit, next) = self.exit(now, until, self.terrain.corners_of(&block));
+            let (min, max) = self.terrain.corners_of(&block);
+            let next = slice.cut_at(min, max);
             if let Some(lists) = self.terrain.in_block(&block)
-                && let Some(meeting) = self.search(&lists, now, exit, work)
+                && let Some(meeting) = self.search(&lists, slice, work)
             {
                 return Some(meeting);
             }
             let Block { low, high, .. } = block;
             let (axis, up) = next?;
-            now = exit;
+            slice = self.slice(slice.end(), until);
             // The other coordinates follow from where the path is; this one is known.
-            let inside = self.terrain.place_of(self.segment.position_at(now)).clamp(low, high);
+            let inside = self.terrain.place_of(slice.position).clamp(low, high);
             cell = inside;
             cell[axis] = if up { high[axis] + 1 } else { low[axis] - 1 };
             let beyond =
                 if up { self.terrain.cells_along(axis) <= cell[axis] } else { cell[axis] < 0 };
-            if beyond && !self.returns(now, axis, up) {
+            if beyond && !slice.returns(axis, up) {
                 return None;
             }
         }
     }
 
-    /// Whether a path that leaves the grid along an axis may come back.
-    fn returns(&self, now: Seconds, axis: usize, up: bool) -> bool {
-        let v = self.segment.velocity_at(now)[axis];
-        let a = self.segment.acceleration[axis];
-        let sign = if up { 1.0 } else { -1.0 };
-        sign * v < 0.0 || sign * a < 0.0
-    }
-
-    /// When the path leaves a box, and through which side; none if it ends inside.
-    fn exit(
-        &self,
-        now: Seconds,
-        until: Seconds,
-        (min, max): (DVec3, DVec3),
-    ) -> (Seconds, Option<(usize, bool)>) {
-        let horizon = until - now;
-        let position = self.segment.position_at(now).to_array();
-        let velocity = self.segment.velocity_at(now).to_array();
-        let acceleration = self.segment.acceleration.to_array();
-        let (min, max) = (min.to_array(), max.to_array());
-        let mut best = (until, None);
-        for axis in 0..3 {
-            let (x, v, a) = (position[axis], velocity[axis], acceleration[axis]);
-            // Which sides it crosses at all, its ends and the turn between them say without a root.
-            let end = x + (v + 0.5 * a * horizon) * horizon;
-            let turns = v * a < 0.0 && v.abs() < a.abs() * horizon;
-            let turn = if turns { x - 0.5 * v * v / a } else { x };
-            for (up, gap, v, a) in [
-                (true, max[axis] - x.max(end).max(turn), -v, -a),
-                (false, x.min(end).min(turn) - min[axis], v, a),
-            ] {
-                let start = if up { max[axis] - x } else { x - min[axis] };
-                if gap < 0.0
-                    && let Some(time) = closing::falling_quadratic(start, v, a, best.0 - now)
-                    && (now + time < best.0 || best.1.is_none())
-                {
-                    best = (now + time, Some((axis, up)));
-                }
-            }
-        }
-        best
-    }
-
-    /// The first meeting with what is in reach between two times.
-    fn search(
-        &self,
-        lists: &InReach,
-        now: Seconds,
-        exit: Seconds,
-        work: &mut Work,
-    ) -> Option<Meeting> {
-        let span = self.span(now, exit);
-        let mut slice = Slice {
-            length: exit - now,
-            position: self.segment.position_at(now),
-            velocity: self.segment.velocity_at(now),
+    /// The path from `start` to `until`.
+    fn slice(&self, start: Seconds, until: Seconds) -> Slice {
+        Slice {
+            start,
+            length: until - start,
+            position: self.segment.position_at(start),
+            velocity: self.segment.velocity_at(start),
             acceleration: self.segment.acceleration,
-        };
+        }
+    }
+
+    /// The first meeting with what is in reach on a stretch of the path.
+    fn search(&self, lists: &InReach, mut slice: Slice, work: &mut Work) -> Option<Meeting> {
+        let span = slice.span(self.radius_m);
         let mut best: Option<Meeting> = None;
         let mut note = |slice: &mut Slice, time: Seconds, feature, normal, leaves| {
             slice.length = time;
-            best = Some(Meeting { at: now + time, feature, normal, leaves });
+            best = Some(Meeting { at: slice.start + time, feature, normal, leaves });
         };
         for group in lists.groups {
             let feature = Feature::Patch(group.patch);
@@ -324,21 +284,6 @@ impl Walk<'_> {
             }
         }
         best
-    }
-
-    /// A ball around the path from `now` to `exit`, which lies within the triangle of its ends and
-    /// its control point.
-    fn span(&self, now: Seconds, exit: Seconds) -> Span {
-        let position = self.segment.position_at(now);
-        let control = position + self.segment.velocity_at(now) * (0.5 * (exit - now));
-        let middle = 0.5 * (position + self.segment.position_at(exit));
-        let square = position.distance_squared(middle).max(control.distance_squared(middle));
-        let half_m = square.sqrt();
-        Span {
-            middle,
-            reach_m: half_m + self.radius_m + tolerance::SUPPORT_M,
-            beside_m: half_m + BESIDE_M,
-        }
     }
 
     fn is_held(&self, feature: Feature) -> bool {
@@ -439,6 +384,77 @@ impl Walk<'_> {
 }
 
 impl Slice {
+    fn end(&self) -> Seconds {
+        self.start + self.length
+    }
+
+    /// Cuts it where it leaves a box, and says through which side; none if it ends inside.
+    fn cut_at(&mut self, min: DVec3, max: DVec3) -> Option<(usize, bool)> {
+        let (position, velocity) = (self.position.to_array(), self.velocity.to_array());
+        let (acceleration, min, max) =
+            (self.acceleration.to_array(), min.to_array(), max.to_array());
+        let whole = self.length;
+        let mut side = None;
+        for axis in 0..3 {
+            let (x, v, a) = (position[axis], velocity[axis], acceleration[axis]);
+            // Which sides it crosses at all, its ends and the turn between them say without a root.
+            let end = x + (v + 0.5 * a * whole) * whole;
+            let turns = v * a < 0.0 && v.abs() < a.abs() * whole;
+            let turn = if turns { x - 0.5 * v * v / a } else { x };
+            let least = if x < end { x } else { end };
+            let most = if x < end { end } else { x };
+            if least < min[axis] || turn < min[axis] {
+                self.cut(
+                    closing::falling_quadratic(x - min[axis], v, a, self.length),
+                    &mut side,
+                    (axis, false),
+                );
+            }
+            if max[axis] < most || max[axis] < turn {
+                self.cut(
+                    closing::falling_quadratic(max[axis] - x, -v, -a, self.length),
+                    &mut side,
+                    (axis, true),
+                );
+            }
+        }
+        side
+    }
+
+    fn cut(
+        &mut self,
+        time: Option<Seconds>,
+        side: &mut Option<(usize, bool)>,
+        through: (usize, bool),
+    ) {
+        if let Some(time) = time
+            && (time < self.length || side.is_none())
+        {
+            self.length = time;
+            *side = Some(through);
+        }
+    }
+
+    /// Whether a path that leaves the grid along an axis may come back.
+    fn returns(&self, axis: usize, up: bool) -> bool {
+        let sign = if up { 1.0 } else { -1.0 };
+        sign * self.velocity[axis] < 0.0 || sign * self.acceleration[axis] < 0.0
+    }
+
+    /// A ball around it: it lies within the triangle of its ends and its control point.
+    fn span(&self, radius_m: f64) -> Span {
+        let bend = self.acceleration * (0.25 * self.length * self.length);
+        let half = self.velocity * (0.5 * self.length) + bend;
+        let middle = self.position + half;
+        let square = half.length_squared().max(bend.length_squared());
+        let half_m = square.sqrt();
+        Span {
+            middle,
+            reach_m: half_m + radius_m + tolerance::SUPPORT_M,
+            beside_m: half_m + BESIDE_M,
+        }
+    }
+
     fn at(&self, time: Seconds) -> DVec3 {
         self.position + (self.velocity + self.acceleration * (0.5 * time)) * time
     }

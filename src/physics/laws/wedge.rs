@@ -257,12 +257,18 @@ mod tests {
                 continue;
             };
             let Some(general) = one_ball::solve(&ball, &[struck, bed]) else { continue };
+            // Where the slip nearly ends the general method stops with the looser end.
             for (one, other) in direct.iter().zip(&general) {
-                assert!(one.distance(*other) < 1e-11, "{case}: {direct:?} {general:?}");
+                assert!(one.distance(*other) < 1e-9, "{case}: {direct:?} {general:?}");
             }
             let mut after = ball;
             after.push(normal, direct[0]);
             after.push(DVec3::Z, direct[1]);
+            let drag = direct[1].with_z(0.0);
+            let slip = after.surface_velocity(DVec3::Z).with_z(0.0);
+            assert!(after.velocity.z.abs() < 1e-13 && drag.dot(slip) <= 0.0, "{case}");
+            assert!(drag.cross(slip).length() <= 1e-13 * drag.length(), "{case}: {drag} {slip}");
+            assert!((after.velocity.dot(normal) - target_m_s).abs() < 1e-13, "{case}");
             let slip = after.surface_velocity(normal);
             if (slip - normal * slip.dot(normal)).length() < 1e-11 {
                 stuck += 1;
