@@ -199,6 +199,17 @@ impl EventDriven {
         self.bodies.binary_search_by_key(&ball, |body| body.ball.id).ok()
     }
 
+    /// Hands over what was told, up to a fact in `stop`; returns the time of that.
+    fn hand_over(&mut self, stop: FactSet, facts: &mut Vec<Fact>) -> Option<Seconds> {
+        if self.told.is_empty() {
+            return None;
+        }
+        let last = self.told.iter().position(|fact| stop.contains(fact.kind.topic()));
+        let count = last.map_or(self.told.len(), |last| last + 1);
+        facts.extend(self.told.drain(..count));
+        last.and_then(|_| facts.last()).map(|fact| fact.time_s)
+    }
+
     /// The first thing that happens, and when. Ties go in the order in which they are listed here.
     fn next_event(&self) -> (Seconds, Next) {
         let mut best = (f64::INFINITY, Next::Nothing);
@@ -320,18 +331,7 @@ impl Solver for EventDriven {
             return Err(PhysicsError::Command { time_s: limit, term: "time limit" });
         }
         loop {
-            let mut stopped = None;
-            let mut count = 0;
-            for fact in &self.told {
-                count += 1;
-                facts.push(*fact);
-                if stop.contains(fact.kind.topic()) {
-                    stopped = Some(fact.time_s);
-                    break;
-                }
-            }
-            self.told.drain(..count);
-            if let Some(time) = stopped {
+            if let Some(time) = self.hand_over(stop, facts) {
                 self.now = self.now.max(time);
                 return Ok(time);
             }

@@ -207,10 +207,15 @@ impl EventDriven {
     fn way_at(&self, index: usize, at: Seconds) -> (DVec3, DVec3) {
         let path = &self.paths[index];
         if path.swings {
-            let segment = &self.bodies[index].segment;
-            return (segment.position_at(at), segment.velocity_at(at));
+            return self.swing_at(index, at);
         }
         (path.position_at(at), path.velocity_at(at))
+    }
+
+    #[cold]
+    fn swing_at(&self, index: usize, at: Seconds) -> (DVec3, DVec3) {
+        let segment = &self.bodies[index].segment;
+        (segment.position_at(at), segment.velocity_at(at))
     }
 
     /// Centre of a ball [m].

@@ -155,6 +155,7 @@ pub struct InReach<'a> {
 
 impl InReach<'_> {
     /// Whether that is nothing.
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty() && self.edges.is_empty() && self.corners.is_empty()
     }
@@ -358,18 +359,26 @@ impl Terrain {
                 note(Feature::Patch(group.patch), normal, height.abs());
             }
         }
+        // A little more, for the root's rounding: `note` decides.
+        let reach_square = reach_m * reach_m * (1.0 + 1e-12);
         for number in lists.edges {
             let edge = &self.edges[*number as usize];
             let along = (centre - edge.from).dot(edge.along);
-            if !edge.flat && 0.0 <= along && along <= edge.length_m {
-                let offset = centre - edge.from - edge.along * along;
+            let offset = centre - edge.from - edge.along * along;
+            if !edge.flat
+                && 0.0 <= along
+                && along <= edge.length_m
+                && offset.length_squared() <= reach_square
+            {
                 let distance = offset.length();
                 note(Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
             }
         }
         for number in lists.corners {
             let offset = centre - self.corners[*number as usize].point;
-            note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
+            if offset.length_squared() <= reach_square {
+                note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
+            }
         }
         found
     }
@@ -435,6 +444,7 @@ impl Terrain {
 }
 
 impl Lists {
+    #[inline]
     fn of(&self, listed: &Listed) -> InReach<'_> {
         let range = |(from, to): (u32, u32)| from as usize..to as usize;
         InReach {

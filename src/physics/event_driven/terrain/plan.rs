@@ -59,11 +59,13 @@ pub struct Plan {
 
 impl Plan {
     /// What is in reach in a zone.
+    #[inline]
     pub fn in_zone(&self, zone: &Zone) -> InReach<'_> {
         self.lists.of(&zone.listed)
     }
 
     /// The zone of a point; none if the plan does not reach so far.
+    #[inline]
     pub fn zone_at(&self, point: DVec2) -> Option<&Zone> {
         let place = (point - self.origin) * self.inverse_cell;
         if !(place.cmpge(DVec2::ZERO).all() && place.cmplt(self.count.as_dvec2()).all()) {
