@@ -2,18 +2,18 @@
 //! [`super::cushion`], in closed form but for one angle or two.
 //!
 //! So does nearly every ball that meets a cushion: the nose presses it into the cloth, and there it
-//! slips, because it has just turned back. The struck surface sticks or slips. With the direction of
-//! each friction known everything is linear, and a direction is right if it is against the slip
+//! slips, because it has just turned back. The struck surface sticks or slips. With the direction
+//! of each friction known everything is linear, and a direction is right if it is against the slip
 //! that it leaves: an angle to be found, by Newton's method from the slip without friction of the
 //! bed. That takes a tenth of the work of [`super::one_ball`], which knows every other case and is
 //! asked if this one turns out not to be at hand.
 //!
 //! In units of the mass, with x̂ level and away from the struck surface, ẑ the support's normal,
-//! n = c x̂ + s ẑ, τ = c ẑ − s x̂, A = m R²/I, W = R ω, impulses p = Jc n + t_y ŷ + t_τ τ of the
-//! struck surface and q of the bed, the slips after the impact are
+//! n = c x̂ + s ẑ, τ = c ẑ − s x̂, A = m R²/I, impulses p = Jc n + t_y ŷ + t_τ τ of the struck
+//! surface and q of the bed, the slips after the impact are
 //! ```text
-//! struck: u_y = u_y° + (1+A) t_y + (1+A s) q_y       u_τ = u_τ° + (1+A) t_τ − (s+A) q_x + c q_z
-//! bed:    w_x = w_x° + c Jc − (s+A) t_τ + (1+A) q_x  w_y = w_y° + (1+A s) t_y + (1+A) q_y
+//! struck: u_y = u_y° + (1+A) t_y + (1+As) q_y      u_τ = u_τ° + (1+A) t_τ − (s+A) q_x + c q_z
+//! bed:    w_x = w_x° + c Jc − (s+A) t_τ + (1+A) q_x     w_y = w_y° + (1+As) t_y + (1+A) q_y
 //! ```
 //! and the normal velocities Jc + c q_x + s q_z = T, s Jc + c t_τ + q_z = Z are given.
 
@@ -56,9 +56,11 @@ pub fn solve(ball: &Mover, struck: &Surface, bed: &Surface) -> Option<[DVec3; 2]
 struct Wedge {
     c: f64,
     s: f64,
-    /// 1 + A, 1 + A s, s + A.
+    /// 1 + A.
     own: f64,
+    /// 1 + A s.
     sideways: f64,
+    /// s + A.
     across: f64,
     /// T and Z.
     turned: f64,
