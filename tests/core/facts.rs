@@ -122,8 +122,7 @@ fn a_ball_met_while_the_tip_is_on_the_cue_ball_is_pushed() {
 fn a_thin_cut_of_a_near_ball_is_no_push_if_it_comes_late() {
     for (name, settings) in solvers() {
         // 1 mm of room, but 60 degrees off the line: the cue ball has twice the way.
-        let angle = 60.0_f64.to_radians();
-        let way = (2.0 * R + 3e-3) * DVec2::new(angle.cos(), angle.sin());
+        let way = (2.0 * R + 3e-3) * DVec2::new(0.5, 0.75_f64.sqrt());
         let balls = [lies(0, -0.3, 0.0), lies(1, -0.3 + way.x, way.y)];
         let facts = struck(&settings, &balls, level(), 2.0);
         assert!(!tips(&facts)[0], "{name}");
