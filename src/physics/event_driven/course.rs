@@ -247,8 +247,8 @@ impl EventDriven {
         if outwards * outwards >= into * self.bodies[index].ball.radius_m {
             self.go_on(at, index, &mover, DVec3::ZERO, 0.0);
         } else {
-            // Over the edge by more than rounding, or the patch would seem to carry it still; on the
-            // level, because what a slope adds or takes on this way nobody pays for.
+            // Over the edge by more than rounding, or the patch would seem to carry it still. On
+            // the level: what a slope adds or takes on this way would be energy from nowhere.
             let level = inwards.unwrap_or(DVec3::ZERO).with_z(0.0);
             let over = level.normalize_or_zero() * -OVER_M;
             self.begin_lasting_with(at, index, &mover, over);
