@@ -5,7 +5,7 @@
 //! slips, because it has just turned back. The struck surface sticks or slips. With the direction
 //! of each friction known everything is linear, and a direction is right if it is against the slip
 //! that it leaves: an angle to be found, by Newton's method from the slip without friction of the
-//! bed. That takes a tenth of the work of [`super::one_ball`], which knows every other case and is
+//! bed. That is a seventh of the work of [`super::one_ball`], which knows every other case and is
 //! asked if this one turns out not to be at hand.
 //!
 //! In units of the mass, with x̂ level and away from the struck surface, ẑ the support's normal,
