@@ -121,6 +121,7 @@ pub fn made_possible(
             push: false,
             moving: false,
             player: None,
+            miscue: false,
             position_m: Default::default(),
             normal_speed_m_s: 0.0,
         },
