@@ -6,5 +6,8 @@
 mod mix;
 mod onset;
 
-pub use mix::{Listener, MixSettings, Mixer, Mode, Room, VOICES_MAX};
+pub use mix::{
+    AHEAD_MAX_S, Listener, MixSettings, MixWork, Mixer, Mode, ROLLING_MAX, Room, Told, VOICES_MAX,
+    render_offline,
+};
 pub use onset::{Onset, Rolling, SoundClass};
