@@ -16,7 +16,6 @@ mod limiter;
 mod listener;
 mod moving;
 mod offline;
-mod offline;
 mod path;
 mod pool;
 mod ramp;
