@@ -48,6 +48,8 @@ mod scene_built;
 mod snooker;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
+/// What is heard.
+mod sound;
 /// What the clock leaves out and what it must not.
 mod tick;
 /// The shape of the repository.
