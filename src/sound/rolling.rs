@@ -1,5 +1,6 @@
 //! A ball that rolls or slides, as long as it moves.
 
+use super::Rolling;
 use super::chance::Chance;
 use super::filter::Filter;
 use super::level::factor;
@@ -72,9 +73,14 @@ impl RollingVoice {
         }
     }
 
-    /// Tells how fast the ball is and how fast its lowest point slips over the ground [m/s]. What
-    /// is no finite number is 0.
-    pub fn tell(&mut self, speed_m_s: f32, slip_m_s: f32) {
+    /// Tells how the ball moves now; its sound follows within some 10 ms. What is no finite number
+    /// counts as 0.
+    pub fn tell(&mut self, rolling: &Rolling) {
+        self.set(rolling.velocity_m_s.length(), rolling.slip_m_s);
+    }
+
+    /// Sets speed and slip [m/s].
+    pub(super) fn set(&mut self, speed_m_s: f32, slip_m_s: f32) {
         let usable = |speed: f32| {
             if speed.is_finite() { speed.clamp(0.0, SPEED_MAX_M_S) } else { 0.0 }
         };
@@ -98,6 +104,11 @@ impl RollingVoice {
         let [low_cut, high_cut] = &mut self.hiss;
         let hiss = high_cut.next(low_cut.next(noise).high).low;
         self.gains[0] * rumble + self.gains[1] * hiss
+    }
+
+    /// The next samples [Pa].
+    pub fn fill(&mut self, out: &mut [f32]) {
+        out.iter_mut().for_each(|sample| *sample = self.next());
     }
 
     /// Whether nothing is heard of it now.

@@ -162,6 +162,11 @@ impl Voice {
         }
     }
 
+    /// The next samples, as [`Voice::next`] gives them [Pa].
+    pub fn fill(&mut self, bank: &Bank, out: &mut [f32]) {
+        out.iter_mut().for_each(|sample| *sample = self.next(bank));
+    }
+
     fn synthesis(&mut self) -> f32 {
         let drive = self.pulses.next(self.at).unwrap_or_default();
         let mut sum = self.sphere.next(self.at, drive.sphere_m_s);
