@@ -5,12 +5,13 @@
 //! [`Mixer::new`] allocates, nothing waits, and nothing that it is told, numbers that are none
 //! included, makes it panic or say anything but numbers from -1 to 1.
 //!
-//! Parts in the order of the way of a sound: `source` what sounds, `slot` one sound and its ways to
+//! Parts in the order of the way of a sound: `slot` one sound and its ways to
 //! the ears, `pool` who has to go when there is no room, `moving` balls that roll, `head` and `path`
 //! what the ways are, `bus` sound under way, `room` and `reverb` what the walls send back,
 //! `limiter` the end.
 
 mod bus;
+mod clean;
 mod head;
 mod limiter;
 mod listener;
@@ -23,7 +24,6 @@ mod reverb;
 mod room;
 mod settings;
 mod slot;
-mod source;
 mod surroundings;
 
 pub use listener::Listener;
@@ -32,10 +32,11 @@ pub use pool::VOICES_MAX;
 pub use room::Room;
 pub use settings::{MixSettings, Mode};
 
-use super::{Onset, Rolling};
+use super::level::FULL_SCALE_PA;
+use super::{Bank, Onset, Rolling, RoomTone};
 use bus::Buses;
 use head::TINY;
-use limiter::{KNEE, Limiter};
+use limiter::Limiter;
 use listener::Follower;
 use moving::{Mover, is_heard};
 use path::BLOCK;
@@ -43,7 +44,7 @@ use pool::{Begun, Pool};
 use ramp::Ramp;
 use reverb::Reverb;
 use slot::Slot;
-use source::Source;
+use std::sync::Arc;
 use surroundings::{Surroundings, point};
 
 /// Balls that are heard to roll, at most: all of a game of snooker, and two more.
@@ -54,8 +55,6 @@ pub const AHEAD_MAX_S: f32 = 10.0;
 const VOLUME_S: f32 = 0.020;
 /// The walls swallow what is above [Hz].
 const WALL_HZ: f32 = 4_000.0;
-/// Full scale per pascal: 124 dB, 31.7 Pa, are 3 dB below it.
-const SCALE: f32 = KNEE / 31.697_864;
 
 /// What a mixer has done.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -86,6 +85,8 @@ pub struct Mixer {
     movers: Box<[Mover]>,
     buses: Buses,
     reverb: Option<Reverb>,
+    /// One an ear, for a sound from all round.
+    room_tone: Option<[RoomTone; 2]>,
     /// State and share of the low-pass of the walls.
     wall: [f32; 2],
     wall_share: f32,
@@ -95,23 +96,25 @@ pub struct Mixer {
 }
 
 impl Mixer {
-    /// A mixer in silence; everything it will ever need is allocated here.
-    pub fn new(settings: MixSettings) -> Mixer {
-        let around = Surroundings::new(&settings);
+    /// A mixer in silence; everything it will ever need is allocated here. `bank` has recordings of
+    /// the rate of the stream.
+    pub fn new(settings: MixSettings, bank: Arc<Bank>) -> Mixer {
+        let around = Surroundings::new(&settings, bank);
         let rate_hz = around.rate_hz;
         Mixer {
-            around,
             listener: Follower::default(),
             frame: 0,
             pool: Pool::new(),
             movers: vec![Mover::free(rate_hz); ROLLING_MAX].into_boxed_slice(),
             buses: Buses::new(around.delay_max, around.room.is_some()),
             reverb: around.room.map(|room| Reverb::new(&room, rate_hz)),
+            room_tone: settings.room_tone.then(|| [1, 2].map(|ear| RoomTone::new(ear, rate_hz))),
             wall: [0.0; 2],
             wall_share: 1.0 - libm::expf(-std::f32::consts::TAU * WALL_HZ / rate_hz),
             volume: Ramp::at(sane_volume(settings.volume).unwrap_or(1.0)),
             limiter: Limiter::new(rate_hz),
             work: MixWork::default(),
+            around,
         }
     }
 
@@ -128,8 +131,7 @@ impl Mixer {
             return;
         };
         let at = at_frame.max(self.frame);
-        let source = Source::begin(onset, self.around.rate_hz);
-        let slot = Slot::new(source, onset, position_m, at, &self.around);
+        let slot = Slot::new(onset, position_m, at, &self.around);
         self.work.begun += 1;
         self.work.late += u64::from(at_frame < self.frame);
         match self.pool.start(slot, self.frame, &self.around, &mut self.buses) {
@@ -214,7 +216,7 @@ impl Mixer {
 
     fn mix_within_block(&mut self, out: &mut [[f32; 2]]) {
         let (frame, n) = (self.frame, out.len());
-        self.pool.sound(frame, n, &mut self.buses);
+        self.pool.sound(frame, n, &self.around.bank, &mut self.buses);
         let mut ears = [[0.0; BLOCK]; 2];
         let mut send = [0.0; BLOCK];
         for (ear, lane) in ears.iter_mut().zip(&mut self.buses.direct) {
@@ -227,8 +229,13 @@ impl Mixer {
             mover.sound(frame, &mut ears, &mut send[..n]);
         }
         self.add_room(&mut ears, &send[..n]);
+        if let Some(tones) = &mut self.room_tone {
+            for (ear, tone) in ears.iter_mut().zip(tones) {
+                ear[..n].iter_mut().for_each(|sum| *sum += tone.next());
+            }
+        }
         for (i, frame) in out.iter_mut().enumerate() {
-            let gain = self.volume.next() * SCALE;
+            let gain = self.volume.next() / FULL_SCALE_PA;
             *frame = [ears[0][i] * gain, ears[1][i] * gain];
             self.limiter.apply(frame);
         }

@@ -1,4 +1,10 @@
-//! What is heard: measures on the mixer's output.
+//! What is heard, measured as a listener would: level, spectrum, time.
 
-/// Two ears, many voices, a room.
+/// Spectra and levels.
+mod measure;
+
+/// The click of two balls.
+mod ball_click;
+
+/// The mixer: two ears, many voices, a room.
 mod mix;

@@ -1,10 +1,9 @@
 //! The head: a sphere with an ear on either side.
 
 use super::{Listener, Mode};
+use crate::sound::parameters::SOUND_SPEED_M_S;
 use glam::Vec3;
 
-/// Speed of sound [m/s], dry air of 20 °C.
-pub const SOUND_M_S: f32 = 343.0;
 /// Radius of the head [m] (Woodworth 1938; Kuhn 1977).
 pub const HEAD_M: f32 = 0.0875;
 /// Nothing is heard louder than from here [m].
@@ -109,7 +108,7 @@ impl Shadow {
 
 /// Rate over ω₀: twice the time constant of the shadow [frames].
 pub fn pole_frames(rate_hz: f32) -> f32 {
-    rate_hz * HEAD_M / SOUND_M_S
+    rate_hz * HEAD_M / SOUND_SPEED_M_S
 }
 
 /// The shadow as one number, for sound that needs no more: |H| at ω = 2ω₀, 1.25 kHz.

@@ -1,13 +1,14 @@
 //! A ball that rolls: its sound is read from a delay line whose length follows the way to each
 //! ear, so that delay, pitch and level are those of a source that moves.
 
-use super::head::{Arrival, SOUND_M_S, Shadow, arrivals};
+use super::clean::clean;
+use super::head::{Arrival, Shadow, arrivals};
 use super::path::{BLOCK, lagrange};
 use super::ramp::Ramp;
-use super::source::RollingSource;
 use super::surroundings::{Surroundings, point};
 use crate::ids::BallId;
-use crate::sound::Rolling;
+use crate::sound::parameters::SOUND_SPEED_M_S;
+use crate::sound::{Rolling, RollingVoice};
 use glam::Vec3;
 
 /// Longest way to an ear [s]: 20 m.
@@ -101,7 +102,7 @@ impl Line {
     }
 
     fn delay(&self, arrival: &Arrival) -> f32 {
-        let frames = arrival.path_m / SOUND_M_S * self.rate_hz;
+        let frames = arrival.path_m / SOUND_SPEED_M_S * self.rate_hz;
         frames.clamp(2.0, LINE_S * self.rate_hz)
     }
 
@@ -154,7 +155,7 @@ pub struct Mover {
     line: Line,
     /// `None`: free.
     ball: Option<BallId>,
-    source: RollingSource,
+    voice: RollingVoice,
     level: Ramp,
     /// How it is reckoned to move, and up to which frame.
     motion: Motion,
@@ -176,7 +177,7 @@ impl Mover {
         Mover {
             line,
             ball: None,
-            source: RollingSource::new(rate_hz),
+            voice: RollingVoice::new(0.0, 0, rate_hz),
             level: Ramp::at(0.0),
             motion: Motion::default(),
             reckoned_at: 0,
@@ -197,7 +198,9 @@ impl Mover {
     pub fn begin(&mut self, rolling: &Rolling, now: u64, around: &Surroundings) {
         let Some(motion) = Motion::of(rolling) else { return };
         self.ball = Some(rolling.ball);
-        self.source = RollingSource::begin(rolling, around.rate_hz);
+        let seed = u32::from(rolling.ball.0);
+        self.voice = RollingVoice::new(rolling.radius_m, seed, around.rate_hz);
+        self.voice.tell(rolling);
         self.line.ring.fill(0.0);
         self.level = Ramp::at(0.0);
         self.level.to(1.0, around.frames(FADE_S));
@@ -212,7 +215,7 @@ impl Mover {
     /// The newest of its ball; what is no number is ignored, and rest is no news.
     pub fn tell(&mut self, rolling: &Rolling, now: u64, around: &Surroundings) {
         let Some(told) = Motion::of(rolling) else { return };
-        self.source.tell(rolling);
+        self.voice.tell(rolling);
         self.reckon(now, around);
         self.told = told;
         self.motion.velocity_m_s = told.velocity_m_s;
@@ -256,7 +259,7 @@ impl Mover {
     fn settled(&self, ahead_s: f32, around: &Surroundings) -> [Arrival; 2] {
         let mut arrivals = self.arrivals(ahead_s, [0.0; 2], around);
         for _ in 0..4 {
-            arrivals = self.arrivals(ahead_s, arrivals.map(|a| a.path_m / SOUND_M_S), around);
+            arrivals = self.arrivals(ahead_s, arrivals.map(|a| a.path_m / SOUND_SPEED_M_S), around);
         }
         arrivals
     }
@@ -318,7 +321,8 @@ impl Mover {
         }
         let mut said = [0.0; BLOCK];
         let said = &mut said[..room.len()];
-        self.source.fill(said);
+        self.voice.fill(said);
+        clean(said);
         self.level.apply(said);
         for (i, x) in said.iter().enumerate() {
             self.line.write(from + i as u64, *x);

@@ -1,7 +1,8 @@
 //! The way of a sound that stays where it is, to both ears.
 
 use super::bus::Lane;
-use super::head::{Arrival, SOUND_M_S, Shadow};
+use super::head::{Arrival, Shadow};
+use super::surroundings::Surroundings;
 
 /// Frames that are mixed in one go at most: where all slow changes are decided, so that the frame
 /// of a decision does not depend on how the stream is cut.
@@ -24,11 +25,15 @@ pub struct EarPath {
 
 impl EarPath {
     /// Nothing has gone this way yet. `gain` comes on top of the arrival's own.
-    pub fn new(arrival: &Arrival, gain: f32, rate_hz: f32, delay_max: usize) -> EarPath {
-        let frames = (arrival.path_m / SOUND_M_S * rate_hz).clamp(1.0, delay_max as f32);
+    pub fn new(arrival: &Arrival, gain: f32, around: &Surroundings) -> EarPath {
+        let frames = around.delay(arrival.path_m).max(1.0);
         let whole = frames.floor();
         let taps = lagrange(frames - whole).map(|tap| tap * gain * arrival.gain);
-        EarPath { delay: whole as u64 - 1, taps, shadow: Shadow::new(arrival.alpha, rate_hz) }
+        EarPath {
+            delay: whole as u64 - 1,
+            taps,
+            shadow: Shadow::new(arrival.alpha, around.rate_hz),
+        }
     }
 
     /// What this ear hears of the first `out.len()` new samples of a run, but for the delay.

@@ -3,6 +3,7 @@
 use super::bus::Buses;
 use super::slot::Slot;
 use super::surroundings::Surroundings;
+use crate::sound::Bank;
 
 /// Sounds at once, at most, beside the balls that roll.
 pub const VOICES_MAX: usize = 64;
@@ -89,9 +90,9 @@ impl Pool {
     }
 
     /// The next frames: at most a block.
-    pub fn sound(&mut self, from: u64, frames: usize, buses: &mut Buses) {
+    pub fn sound(&mut self, from: u64, frames: usize, bank: &Bank, buses: &mut Buses) {
         for slot in self.slots.iter_mut().flatten() {
-            slot.sound(from, frames, buses);
+            slot.sound(from, frames, bank, buses);
         }
     }
 }

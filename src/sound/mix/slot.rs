@@ -1,14 +1,14 @@
 //! One sound that has begun, and its ways to the ears.
 
 use super::bus::Buses;
+use super::clean::clean;
 use super::head::arrivals;
 use super::path::{BACK, BLOCK, EarPath, Run};
 use super::ramp::Ramp;
 use super::room::Reflections;
-use super::source::Source;
 use super::surroundings::Surroundings;
 use super::{Listener, Mode};
-use crate::sound::{Onset, SoundClass};
+use crate::sound::{Bank, Onset, Voice};
 use glam::Vec3;
 
 /// How long the old way of a sound and its new one are heard together [s].
@@ -26,8 +26,7 @@ const MERGED_MAX: f32 = 4.0;
 /// it cross-fade to new ways, so that no way ever changes under a sound.
 #[derive(Debug, Clone)]
 pub struct Slot {
-    source: Source,
-    class: SoundClass,
+    voice: Voice,
     position_m: Vec3,
     /// First frame.
     at: u64,
@@ -47,20 +46,14 @@ pub struct Slot {
 
 impl Slot {
     /// Begins at frame `at`, at a place that can be reckoned with.
-    pub fn new(
-        source: Source,
-        onset: &Onset,
-        position_m: Vec3,
-        at: u64,
-        around: &Surroundings,
-    ) -> Slot {
-        let (ways, nearness) = ways(&source, position_m, around);
+    pub fn new(onset: &Onset, position_m: Vec3, at: u64, around: &Surroundings) -> Slot {
+        let voice = Voice::begin(onset, &around.bank, around.rate_hz);
+        let (ways, nearness) = ways(&voice, position_m, around);
         let reflections = around
             .room
-            .map(|room| Reflections::new(&room, around, position_m, |way| source.directivity(way)));
+            .map(|room| Reflections::new(&room, around, position_m, |way| voice.directivity(way)));
         Slot {
-            source,
-            class: onset.class,
+            voice,
             position_m,
             at,
             ends_at: u64::MAX,
@@ -77,13 +70,14 @@ impl Slot {
 
     /// What is still to be heard of it, at the louder ear [Pa].
     pub fn loudness(&self) -> f32 {
-        let loudness = self.source.loudness() * self.gain.target() * self.nearness;
+        let loudness = self.voice.loudness() * self.gain.target() * self.nearness;
         if loudness.is_nan() { 0.0 } else { loudness }
     }
 
     /// Distance to another sound of the same class that begins within `frames` of this one [m].
     pub fn likeness_m(&self, other: &Slot, frames: u64) -> Option<f32> {
-        let alike = self.class == other.class && self.at.abs_diff(other.at) <= frames;
+        let alike =
+            self.voice.class() == other.voice.class() && self.at.abs_diff(other.at) <= frames;
         alike.then(|| self.position_m.distance(other.position_m))
     }
 
@@ -101,13 +95,13 @@ impl Slot {
 
     /// Decides what changes slowly; false when all of it has been heard.
     pub fn decide(&mut self, now: u64, around: &Surroundings) -> bool {
-        if self.ends_at == u64::MAX && self.source.is_over() {
+        if self.ends_at == u64::MAX && self.voice.is_over() {
             self.ends_at = now + around.tail_frames();
         }
         let heard_as_now =
             self.heard_by.1 == around.mode && self.heard_by.0.hears_as(&around.listener);
         if self.leaving.is_none() && !heard_as_now {
-            let (ways, nearness) = ways(&self.source, self.position_m, around);
+            let (ways, nearness) = ways(&self.voice, self.position_m, around);
             self.leaving = Some(std::mem::replace(&mut self.ways, ways));
             self.nearness = nearness;
             self.heard_by = (around.listener, around.mode);
@@ -118,7 +112,7 @@ impl Slot {
     }
 
     /// The next frames, `from` on: at most a block.
-    pub fn sound(&mut self, from: u64, frames: usize, buses: &mut Buses) {
+    pub fn sound(&mut self, from: u64, frames: usize, bank: &Bank, buses: &mut Buses) {
         let wait = self.at.saturating_sub(from).min(frames as u64);
         let (from, frames) = (from + wait, (frames - wait as usize).min(BLOCK));
         if frames == 0 {
@@ -127,7 +121,8 @@ impl Slot {
         let mut run: Run = [0.0; BACK + BLOCK];
         run[..BACK].copy_from_slice(&self.past);
         let new = &mut run[BACK..BACK + frames];
-        self.source.fill(new);
+        self.voice.fill(bank, new);
+        clean(new);
         self.gain.apply(new);
         if let Some(reflections) = &self.reflections {
             reflections.deliver(buses, from, new);
@@ -173,18 +168,17 @@ impl Slot {
         let mut from = now;
         while from < end {
             let frames = (end - from).min(BLOCK as u64);
-            self.sound(from, frames as usize, buses);
+            self.sound(from, frames as usize, &around.bank, buses);
             from += frames;
         }
     }
 }
 
-/// The ways from a source to both ears, and the factor of the louder one.
-fn ways(source: &Source, position_m: Vec3, around: &Surroundings) -> ([EarPath; 2], f32) {
+/// The ways from a sound to both ears, and the factor of the louder one.
+fn ways(voice: &Voice, position_m: Vec3, around: &Surroundings) -> ([EarPath; 2], f32) {
     let to_head = (around.listener.position_m - position_m).normalize_or(Vec3::X);
-    let sent = source.directivity(to_head);
+    let sent = voice.directivity(to_head);
     let arrivals = arrivals(&around.listener, around.mode, position_m);
-    let ways =
-        arrivals.map(|arrival| EarPath::new(&arrival, sent, around.rate_hz, around.delay_max));
+    let ways = arrivals.map(|arrival| EarPath::new(&arrival, sent, around));
     (ways, sent * arrivals[0].gain.max(arrivals[1].gain))
 }

@@ -1,8 +1,11 @@
 //! What a sound meets on its way: the listener, the room, and how far the mixer looks ahead.
 
-use super::head::{SOUND_M_S, pole_frames};
+use super::head::pole_frames;
 use super::{Listener, MixSettings, Mode, Room};
+use crate::sound::Bank;
+use crate::sound::parameters::{RATES_HZ, SOUND_SPEED_M_S};
 use glam::Vec3;
+use std::sync::Arc;
 
 /// Longest way of a sound [s]: 69 m.
 const DELAY_MAX_S: f32 = 0.2;
@@ -12,7 +15,7 @@ const FAR_M: f32 = 1e4;
 const TAIL: f32 = 13.0;
 
 /// What all sounds have in common.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Surroundings {
     /// Frames a second [Hz].
     pub rate_hz: f32,
@@ -24,19 +27,22 @@ pub struct Surroundings {
     pub room: Option<Room>,
     /// Longest delay [frames].
     pub delay_max: usize,
+    /// Recordings of sounds.
+    pub bank: Arc<Bank>,
 }
 
 impl Surroundings {
     /// As the settings say, and with nothing in them that is no number.
-    pub fn new(settings: &MixSettings) -> Surroundings {
+    pub fn new(settings: &MixSettings, bank: Arc<Bank>) -> Surroundings {
         let asked = if settings.rate_hz.is_finite() { settings.rate_hz } else { 48_000.0 };
-        let rate_hz = asked.clamp(8_000.0, 192_000.0);
+        let rate_hz = asked.clamp(RATES_HZ[0], RATES_HZ[1]);
         Surroundings {
             rate_hz,
             mode: settings.mode,
             listener: Listener::default(),
             room: settings.room.filter(Room::is_sound),
             delay_max: (DELAY_MAX_S * rate_hz) as usize,
+            bank,
         }
     }
 
@@ -52,7 +58,7 @@ impl Surroundings {
 
     /// Delay of a way [frames].
     pub fn delay(&self, way_m: f32) -> f32 {
-        (way_m / SOUND_M_S * self.rate_hz).clamp(0.0, self.delay_max as f32)
+        (way_m / SOUND_SPEED_M_S * self.rate_hz).clamp(0.0, self.delay_max as f32)
     }
 }
 

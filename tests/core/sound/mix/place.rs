@@ -2,7 +2,7 @@
 
 use super::rig::*;
 use glam::Vec3;
-use hapticbillard::sound::{MixSettings, Mixer};
+use hapticbillard::sound::{MixSettings, Mixer, Onset};
 use realfft::RealFftPlanner;
 
 #[test]
@@ -78,7 +78,7 @@ fn a_mirrored_source_is_heard_with_the_ears_swapped_and_nothing_else() {
 }
 
 /// A click and a ball that rolls away from there.
-fn both(mixer: &mut Mixer, onset: &hapticbillard::sound::Onset, velocity: Vec3) -> Vec<[f32; 2]> {
+fn both(mixer: &mut Mixer, onset: &Onset, velocity: Vec3) -> Vec<[f32; 2]> {
     mixer.roll(&rolling(3, onset.position_m, velocity));
     heard(mixer, onset)
 }

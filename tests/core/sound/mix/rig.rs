@@ -2,7 +2,10 @@
 
 use glam::Vec3;
 use hapticbillard::ids::BallId;
-use hapticbillard::sound::{Listener, MixSettings, Mixer, Mode, Onset, Rolling, Room, SoundClass};
+use hapticbillard::sound::{
+    Bank, Listener, MixSettings, Mixer, Mode, Onset, Rolling, Room, SoundClass,
+};
+use std::sync::Arc;
 
 /// Frames a second of most tests [Hz].
 pub const RATE_HZ: f32 = 48_000.0;
@@ -28,7 +31,7 @@ pub fn loudspeakers() -> Mixer {
 
 /// The head at the origin.
 pub fn with(settings: MixSettings) -> Mixer {
-    let mut mixer = Mixer::new(settings);
+    let mut mixer = Mixer::new(settings, Arc::new(Bank::default()));
     mixer.set_listener(HEAD);
     mixer
 }

@@ -2,7 +2,7 @@
 
 use super::rig::*;
 use glam::Vec3;
-use hapticbillard::sound::{Listener, MixSettings, Mixer, Mode, Room};
+use hapticbillard::sound::{Listener, MixSettings, Mode, Room};
 
 #[test]
 fn two_clicks_are_as_far_apart_as_they_were_told() {
@@ -35,7 +35,7 @@ fn a_sound_that_is_told_late_begins_at_once_and_one_from_far_ahead_is_refused() 
 
 /// A busy second: clicks near and far, rolling balls, a listener that walks and jumps.
 fn busy(settings: MixSettings, cuts: &[usize]) -> Vec<[f32; 2]> {
-    let mut mixer = Mixer::new(settings);
+    let mut mixer = with(settings);
     let mut out = Vec::new();
     let mut cut = cuts.iter().cycle();
     for step in 0..200_u16 {
@@ -75,8 +75,7 @@ fn busy(settings: MixSettings, cuts: &[usize]) -> Vec<[f32; 2]> {
 #[test]
 fn where_the_stream_is_cut_changes_no_bit() {
     for rate_hz in [48_000.0, 44_100.0] {
-        let settings =
-            MixSettings { rate_hz, room: Some(Room::CELLAR), ..MixSettings::default() };
+        let settings = MixSettings { rate_hz, room: Some(Room::CELLAR), ..MixSettings::default() };
         let whole = busy(settings, &[240]);
         assert!(energy(&channel(&whole, 0)) > 1e-3);
         for cuts in [&[1][..], &[7], &[64], &[113], &[1, 200, 3, 64, 65, 0, 31]] {
