@@ -16,7 +16,7 @@ mod line;
 mod seat;
 
 pub use backend::{Backend, NoSound, NotBuilt, Output, Playing, system};
-pub use callback::{Callback, Counters, Loss, RING};
+pub use callback::{Callback, Counters, Due, Loss, RING};
 pub use control::{Sound, Work, Worked};
 pub use keeper::{Joins, Keeper, keep};
 pub use knobs::Knobs;

@@ -15,6 +15,9 @@ const BLOCK: usize = 1024;
 /// Things told that wait for their frame at most. When it is full whoever tells drops and counts.
 pub const RING: usize = 4096;
 
+/// Something that the mixer is told, and at which frame; one that is over means at once.
+pub type Due = (u64, Told);
+
 /// Why a stream has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
@@ -49,6 +52,8 @@ pub struct Counters {
     xruns: AtomicU64,
     dropped: AtomicU64,
     allocations: AtomicU64,
+    voices: AtomicU32,
+    late: AtomicU64,
     loss: AtomicU8,
     /// Processor time of a callback [ns].
     pub work: Histogram,
@@ -87,6 +92,16 @@ impl Counters {
         self.dropped.fetch_add(1, Ordering::Relaxed);
     }
 
+    /// Sounds that sound, or wait for their frame.
+    pub fn voices(&self) -> u32 {
+        self.voices.load(Ordering::Relaxed)
+    }
+
+    /// Sounds that began late, since their frame was over.
+    pub fn late(&self) -> u64 {
+        self.late.load(Ordering::Relaxed)
+    }
+
     /// Calls of the allocator in callbacks, where somebody counts them.
     pub fn allocations(&self) -> u64 {
         self.allocations.load(Ordering::Relaxed)
@@ -112,7 +127,7 @@ impl Counters {
 pub struct Callback {
     mixer: Mixer,
     rate_hz: u64,
-    told: rtrb::Consumer<Told>,
+    told: rtrb::Consumer<Due>,
     counters: Arc<Counters>,
     block: Box<[[f32; 2]]>,
     /// How often this thread has used its allocator, where a test counts that.
@@ -126,7 +141,7 @@ impl Callback {
         mixer: Mixer,
         rate_hz: u32,
         allocator: Option<fn() -> u64>,
-    ) -> (Self, rtrb::Producer<Told>, Arc<Counters>) {
+    ) -> (Self, rtrb::Producer<Due>, Arc<Counters>) {
         let (tell, told) = rtrb::RingBuffer::new(RING);
         let counters = Arc::new(Counters::default());
         let callback = Callback {
@@ -180,6 +195,9 @@ impl Callback {
             counters.share.note(share);
         }
         if !self.is_broken {
+            let work = self.mixer.work();
+            counters.voices.store(work.voices as u32, Ordering::Relaxed);
+            counters.late.store(work.late, Ordering::Relaxed);
             counters.frames.store(self.mixer.frame(), Ordering::Release);
         }
     }
@@ -190,7 +208,7 @@ impl Callback {
         if !self.is_broken {
             let (mixer, told) = (&mut self.mixer, &mut self.told);
             let next = |end| match told.peek() {
-                Ok(first) if first.at_frame < end => told.pop().ok(),
+                Ok(first) if first.0 < end => told.pop().ok(),
                 _ => None,
             };
             let mixed = catch_unwind(AssertUnwindSafe(|| perform(mixer, next, out)));

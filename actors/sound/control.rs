@@ -1,11 +1,12 @@
 //! The actor itself.
 
 use super::SOUND;
+use super::callback::Due;
 use super::line::{News, Open};
 use super::seat::{Held, Ports, Seat};
 use hapticbillard::events::{Event, Health};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::sound::{Foley, Listener, Onset, Stream, Timeline, Told, What};
+use hapticbillard::sound::{Foley, Listener, Onset, Rolling, Stream, Timeline, Told};
 use hapticbillard::tick::Delivered;
 use kameo::prelude::*;
 use std::sync::Arc;
@@ -119,7 +120,7 @@ fn see(foley: &mut Foley, snapshot: &Arc<Snapshot>, stream: &mut Way<'_>) {
     let Some((open, teller)) = stream else { return };
     onsets.iter().for_each(|onset| teller.begin(open, onset));
     for rolling in rollings {
-        teller.go_on(open, snapshot.time_s, What::Rolling(rolling));
+        teller.roll(open, snapshot.time_s, rolling);
     }
 }
 
@@ -131,23 +132,23 @@ impl Teller {
 
     fn begin(&mut self, open: &mut Open, onset: &Onset) {
         let at_frame = self.timeline(open).onset(onset.time_s, stream(open));
-        tell(open, Told { at_frame, what: What::Onset(*onset) });
+        tell(open, (at_frame, Told::Start { at_frame, onset: *onset }));
     }
 
-    fn go_on(&mut self, open: &mut Open, time_s: f64, what: What) {
+    fn roll(&mut self, open: &mut Open, time_s: f64, rolling: Rolling) {
         let at_frame = self.timeline(open).state(time_s, stream(open));
-        tell(open, Told { at_frame, what });
+        tell(open, (at_frame, Told::Roll(rolling)));
     }
 
     /// Where it is heard from and how loud, if that has changed; it holds at once.
     fn turn(&mut self, open: &mut Open, listener: Listener, volume: f32) {
         if self.listener != Some(listener) {
             self.listener = Some(listener);
-            tell(open, Told { at_frame: 0, what: What::Listener(listener) });
+            tell(open, (0, Told::Listener(listener)));
         }
         if self.volume != Some(volume) {
             self.volume = Some(volume);
-            tell(open, Told { at_frame: 0, what: What::Volume(volume) });
+            tell(open, (0, Told::Volume(volume)));
         }
     }
 }
@@ -162,8 +163,8 @@ fn stream(open: &Open) -> Stream {
 
 /// When the ring is full it is dropped: the stream stands still, or far more happens than can be
 /// heard.
-fn tell(open: &mut Open, told: Told) {
-    if open.tell.push(told).is_err() {
+fn tell(open: &mut Open, due: Due) {
+    if open.tell.push(due).is_err() {
         open.counters.note_dropped();
     }
 }

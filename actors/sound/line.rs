@@ -3,8 +3,8 @@
 //! Opening may take long, and a driver may hang in it; so it happens here and nowhere else.
 
 use super::backend::{Backend, NoSound, Playing};
-use super::callback::{Callback, Counters, Loss};
-use hapticbillard::sound::{MixSettings, Mixer, Told};
+use super::callback::{Callback, Counters, Due, Loss};
+use hapticbillard::sound::{Bank, MixSettings, Mixer};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -19,7 +19,7 @@ const NEWS: usize = 4;
 /// A stream that plays, and how it is told something.
 pub struct Open {
     /// What it is told goes here, in the order of its frames.
-    pub tell: rtrb::Producer<Told>,
+    pub tell: rtrb::Producer<Due>,
     /// What it counts.
     pub counters: Arc<Counters>,
     /// Its rate [Hz].
@@ -121,7 +121,8 @@ fn open(wiring: &mut Wiring) -> Result<(Playing, Open), NoSound> {
     let mut ends = None;
     let (settings, allocator) = (wiring.settings, wiring.allocator);
     let mut make = |rate_hz: u32| {
-        let mixer = Mixer::new(MixSettings { rate_hz: rate_hz as f32, ..settings });
+        let settings = MixSettings { rate_hz: rate_hz as f32, ..settings };
+        let mixer = Mixer::new(settings, Arc::new(Bank::default()));
         let (callback, tell, counters) = Callback::new(mixer, rate_hz, allocator);
         ends = Some((tell, counters, rate_hz));
         callback

@@ -4,7 +4,7 @@
 //! fast; the snapshots around it say along which line, and what nobody told: which balls roll or
 //! slide, and where one that hopped met the cloth again.
 
-use super::{Onset, Rolling, SoundClass};
+use super::{Onset, ROLLING_MAX, Rolling, SoundClass};
 use crate::ball::{BallPlace, BallState, Motion, POOL_RADIUS_M};
 use crate::events::{Fact, FactKind};
 use crate::ids::BallId;
@@ -20,8 +20,6 @@ const LANDING_M_S: f64 = 0.08;
 const ROLLING_M_S: f64 = 0.01;
 /// Slower than this over the cloth counts as rolling [m/s].
 const SLIP_M_S: f64 = 0.005;
-/// Balls that are heard to roll at once, at most: the fastest ones.
-pub const ROLLING_MAX: usize = 32;
 /// When a ball that fell into a pocket begins to run through the gully [s].
 const GULLY_AFTER_S: Seconds = 0.3;
 /// Balls that are on their way to the gully, at most.
@@ -211,6 +209,7 @@ impl Foley {
         };
         let mut heard: SmallVec<[&BallState; 16]> = snapshot.on_table().filter(is_heard).collect();
         heard.sort_by(|a, b| b.velocity.length().total_cmp(&a.velocity.length()));
+        // The fastest, if there are more than can be heard.
         heard.truncate(ROLLING_MAX);
         let mut rollings: Rollings = heard.iter().map(|ball| self.rolling(ball)).collect();
         let rolled = std::mem::take(&mut self.rolled);

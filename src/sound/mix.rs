@@ -1,51 +1,176 @@
 //! Voices become two channels, as a head at the listener's place would hear them.
+//!
+//! The mixer counts frames and knows no other time. What it is told acts from the next frame on;
+//! where the stream is cut into calls of [`Mixer::mix`] changes no bit. Nothing but
+//! [`Mixer::new`] allocates, nothing waits, and nothing that it is told, numbers that are none
+//! included, makes it panic or say anything but numbers from -1 to 1.
+//!
+//! Parts in the order of the way of a sound: `slot` one sound and its ways to
+//! the ears, `pool` who has to go when there is no room, `moving` balls that roll, `head` and `path`
+//! what the ways are, `bus` sound under way, `room` and `reverb` what the walls send back,
+//! `limiter` the end.
 
+mod bus;
+mod clean;
+mod head;
+mod limiter;
 mod listener;
+mod moving;
+mod offline;
+mod path;
+mod pool;
+mod ramp;
+mod reverb;
 mod room;
 mod settings;
+mod slot;
+mod surroundings;
 
 pub use listener::Listener;
+pub use offline::{Told, render_offline};
+pub use pool::VOICES_MAX;
 pub use room::Room;
 pub use settings::{MixSettings, Mode};
 
-use super::{Onset, Rolling};
+use super::level::FULL_SCALE_PA;
+use super::{Bank, Onset, Rolling, RoomTone};
+use bus::Buses;
+use head::TINY;
+use limiter::Limiter;
+use listener::Follower;
+use moving::{Mover, is_heard};
+use path::BLOCK;
+use pool::{Begun, Pool};
+use ramp::Ramp;
+use reverb::Reverb;
+use slot::Slot;
+use std::sync::Arc;
+use surroundings::{Surroundings, point};
 
-/// Sounds that begin, balls that roll and a listener in; two channels out.
-pub struct Mixer {
-    settings: MixSettings,
-    listener: Listener,
-    frame: u64,
-    begun: Vec<(u64, Onset)>,
+/// Balls that are heard to roll, at most: all of a game of snooker, and two more.
+pub const ROLLING_MAX: usize = 24;
+/// A sound told further ahead than this is refused: it would keep its slot for too long [s].
+pub const AHEAD_MAX_S: f32 = 10.0;
+/// A change of the volume takes this long [s].
+const VOLUME_S: f32 = 0.020;
+/// The walls swallow what is above [Hz].
+const WALL_HZ: f32 = 4_000.0;
+
+/// What a mixer has done.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub struct MixWork {
+    /// Sounds that sound or wait for their frame.
+    pub voices: usize,
+    /// Balls that are heard to roll.
+    pub rolling: usize,
+    /// Sounds begun.
+    pub begun: u64,
+    /// Sounds that began late, since their frame was over.
+    pub late: u64,
+    /// Sounds that another one stands for, for want of a slot.
+    pub merged: u64,
+    /// Sounds that had to go, or did not begin, for want of a slot.
+    pub stolen: u64,
+    /// Sounds that could not be: no number in them, or too far ahead; balls without a slot.
+    pub refused: u64,
 }
 
-/// Sounds at once, at most.
-pub const VOICES_MAX: usize = 64;
+/// Sounds that begin, balls that roll and a listener in; two channels out.
+#[derive(Debug)]
+pub struct Mixer {
+    around: Surroundings,
+    listener: Follower,
+    frame: u64,
+    pool: Pool,
+    movers: Box<[Mover]>,
+    buses: Buses,
+    reverb: Option<Reverb>,
+    /// One an ear, for a sound from all round.
+    room_tone: Option<[RoomTone; 2]>,
+    /// State and share of the low-pass of the walls.
+    wall: [f32; 2],
+    wall_share: f32,
+    volume: Ramp,
+    limiter: Limiter,
+    work: MixWork,
+}
 
 impl Mixer {
-    /// A mixer in silence; everything it will ever need is allocated here.
-    pub fn new(settings: MixSettings) -> Mixer {
-        let begun = Vec::with_capacity(VOICES_MAX);
-        Mixer { settings, listener: Listener::default(), frame: 0, begun }
+    /// A mixer in silence; everything it will ever need is allocated here. `bank` has recordings of
+    /// the rate of the stream.
+    pub fn new(settings: MixSettings, bank: Arc<Bank>) -> Mixer {
+        let around = Surroundings::new(&settings, bank);
+        let rate_hz = around.rate_hz;
+        Mixer {
+            listener: Follower::default(),
+            frame: 0,
+            pool: Pool::new(),
+            movers: vec![Mover::free(rate_hz); ROLLING_MAX].into_boxed_slice(),
+            buses: Buses::new(around.delay_max, around.room.is_some()),
+            reverb: around.room.map(|room| Reverb::new(&room, rate_hz)),
+            room_tone: settings.room_tone.then(|| [1, 2].map(|ear| RoomTone::new(ear, rate_hz))),
+            wall: [0.0; 2],
+            wall_share: 1.0 - libm::expf(-std::f32::consts::TAU * WALL_HZ / rate_hz),
+            volume: Ramp::at(sane_volume(settings.volume).unwrap_or(1.0)),
+            limiter: Limiter::new(rate_hz),
+            work: MixWork::default(),
+            around,
+        }
     }
 
-    /// Begins a sound that leaves its place at `at_frame`; the way to the ears comes on top.
+    /// Begins a sound that leaves its place at `at_frame`, or now if that is over; the way to the
+    /// ears comes on top.
+    ///
+    /// When all slots are taken, it is merged with one of its class that begins within a
+    /// millisecond of it, or the quietest of all has to go.
     pub fn start(&mut self, at_frame: u64, onset: &Onset) {
-        if self.begun.len() < VOICES_MAX {
-            self.begun.push((at_frame.max(self.frame), *onset));
+        let ahead_max = u64::from(self.around.frames(AHEAD_MAX_S));
+        let position_m = point(onset.position_m).filter(|_| onset.speed_m_s.is_finite());
+        let Some(position_m) = position_m.filter(|_| at_frame <= self.frame + ahead_max) else {
+            self.work.refused += 1;
+            return;
+        };
+        let at = at_frame.max(self.frame);
+        let slot = Slot::new(onset, position_m, at, &self.around);
+        self.work.begun += 1;
+        self.work.late += u64::from(at_frame < self.frame);
+        match self.pool.start(slot, self.frame, &self.around, &mut self.buses) {
+            Begun::Free => {}
+            Begun::Merged => self.work.merged += 1,
+            Begun::Stole | Begun::Dropped => self.work.stolen += 1,
         }
     }
 
     /// The newest state of one ball; a ball that is not told of for 100 ms fades.
-    pub fn roll(&mut self, _rolling: &Rolling) {}
-
-    /// Where it is heard from now on.
-    pub fn set_listener(&mut self, listener: Listener) {
-        self.listener = listener;
+    pub fn roll(&mut self, rolling: &Rolling) {
+        let (now, around) = (self.frame, &self.around);
+        if let Some(own) = self.movers.iter_mut().find(|m| m.ball() == Some(rolling.ball)) {
+            own.tell(rolling, now, around);
+        } else if is_heard(rolling) {
+            match self.movers.iter_mut().find(|mover| mover.ball().is_none()) {
+                Some(free) => free.begin(rolling, now, around),
+                None => self.work.refused += 1,
+            }
+        }
     }
 
-    /// Factor of the whole, 0 to 4.
+    /// Where it is heard from: small steps are followed within some hundredths of a second, a cut
+    /// to another place is heard at once; what is no place is ignored.
+    pub fn set_listener(&mut self, listener: Listener) {
+        self.listener.tell(listener);
+        self.around.listener = self.listener.now();
+    }
+
+    /// Headphones or loudspeakers; what sounds fades over.
+    pub fn set_mode(&mut self, mode: Mode) {
+        self.around.mode = mode;
+    }
+
+    /// Factor of the whole, 0 to 4; what is no number is ignored.
     pub fn set_volume(&mut self, volume: f32) {
-        self.settings.volume = volume;
+        if let Some(volume) = sane_volume(volume) {
+            self.volume.to(volume, self.around.frames(VOLUME_S));
+        }
     }
 
     /// The next frame that is mixed.
@@ -53,24 +178,87 @@ impl Mixer {
         self.frame
     }
 
+    /// Frames a second [Hz].
+    pub fn rate_hz(&self) -> f32 {
+        self.around.rate_hz
+    }
+
+    /// What was done so far.
+    pub fn work(&self) -> MixWork {
+        let rolling = self.movers.iter().filter(|mover| mover.ball().is_some()).count();
+        MixWork { voices: self.pool.len(), rolling, ..self.work }
+    }
+
     /// The next frames: left and right, 1 is full scale.
     pub fn mix(&mut self, out: &mut [[f32; 2]]) {
-        for sample in out {
-            *sample = [0.0; 2];
-            for (at, onset) in &self.begun {
-                let rel = onset.position_m - self.listener.position_m;
-                let gain = self.settings.volume * 0.02 / rel.length().max(0.3);
-                let delay_s = rel.length() / 343.0;
-                let t = (self.frame as f32 - *at as f32) / self.settings.rate_hz - delay_s;
-                if (0.0..300e-6).contains(&t) {
-                    let x = gain * onset.speed_m_s * libm::sinf(t / 300e-6 * 2.0 * 3.141_592_7);
-                    sample[0] += x;
-                    sample[1] += x;
-                }
+        let mut rest = out;
+        while !rest.is_empty() {
+            let in_block = self.frame as usize % BLOCK;
+            if in_block == 0 {
+                self.decide();
             }
-            self.frame += 1;
+            let (now, later) = rest.split_at_mut(rest.len().min(BLOCK - in_block));
+            self.mix_within_block(now);
+            self.frame += now.len() as u64;
+            rest = later;
         }
-        let (frame, second) = (self.frame, self.settings.rate_hz as u64);
-        self.begun.retain(|(at, _)| at + second > frame);
     }
+
+    /// What changes slowly, once a block.
+    fn decide(&mut self) {
+        self.listener.follow(BLOCK as f32 / self.around.rate_hz);
+        self.around.listener = self.listener.now();
+        self.pool.decide(self.frame, &self.around);
+        for mover in &mut self.movers {
+            mover.decide(self.frame, &self.around);
+        }
+    }
+
+    fn mix_within_block(&mut self, out: &mut [[f32; 2]]) {
+        let (frame, n) = (self.frame, out.len());
+        self.pool.sound(frame, n, &self.around.bank, &mut self.buses);
+        let mut ears = [[0.0; BLOCK]; 2];
+        let mut send = [0.0; BLOCK];
+        for (ear, lane) in ears.iter_mut().zip(&mut self.buses.direct) {
+            lane.take(frame, &mut ear[..n]);
+        }
+        if self.reverb.is_some() {
+            self.buses.send.take(frame, &mut send[..n]);
+        }
+        for mover in &mut self.movers {
+            mover.sound(frame, &mut ears, &mut send[..n]);
+        }
+        self.add_room(&mut ears, &send[..n]);
+        if let Some(tones) = &mut self.room_tone {
+            for (ear, tone) in ears.iter_mut().zip(tones) {
+                ear[..n].iter_mut().for_each(|sum| *sum += tone.next());
+            }
+        }
+        for (i, frame) in out.iter_mut().enumerate() {
+            let gain = self.volume.next() / FULL_SCALE_PA;
+            *frame = [ears[0][i] * gain, ears[1][i] * gain];
+            self.limiter.apply(frame);
+        }
+    }
+
+    fn add_room(&mut self, ears: &mut [[f32; BLOCK]; 2], send: &[f32]) {
+        let Some(reverb) = &mut self.reverb else { return };
+        for (ear, lane) in self.buses.reflected.iter_mut().enumerate() {
+            let mut reflected = [0.0; BLOCK];
+            lane.take(self.frame, &mut reflected[..send.len()]);
+            for (sum, x) in ears[ear].iter_mut().zip(&reflected[..send.len()]) {
+                self.wall[ear] += (x - self.wall[ear]) * self.wall_share + TINY;
+                *sum += self.wall[ear];
+            }
+        }
+        for (i, x) in send.iter().enumerate() {
+            let late = reverb.next(*x);
+            ears[0][i] += late[0];
+            ears[1][i] += late[1];
+        }
+    }
+}
+
+fn sane_volume(volume: f32) -> Option<f32> {
+    (!volume.is_nan()).then(|| volume.clamp(0.0, 4.0))
 }

@@ -22,12 +22,20 @@ pub struct MixSettings {
     pub mode: Mode,
     /// The walls that answer; `None` is an open field.
     pub room: Option<Room>,
+    /// The soft noise of a room at night.
+    pub room_tone: bool,
     /// Factor of the whole; held to 0 to 4.
     pub volume: f32,
 }
 
 impl Default for MixSettings {
     fn default() -> Self {
-        MixSettings { rate_hz: 48_000.0, mode: Mode::Headphones, room: None, volume: 1.0 }
+        MixSettings {
+            rate_hz: 48_000.0,
+            mode: Mode::Headphones,
+            room: None,
+            room_tone: false,
+            volume: 1.0,
+        }
     }
 }

@@ -1,0 +1,109 @@
+//! How the rows of the table become a sound: one function per class.
+
+mod ball_click;
+
+use super::burst::Burst;
+use super::pulse::Pulse;
+use super::resonator::Resonator;
+use super::{SPHERE_RINGS_S, Voice};
+use crate::sound::chance::Chance;
+use crate::sound::parameters::{
+    Contact, Recipe, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, recipe,
+};
+use crate::sound::{Onset, SoundClass};
+
+/// What all functions need.
+struct Pot<'a> {
+    voice: &'a mut Voice,
+    chance: Chance,
+    rate_hz: f32,
+    /// Within the limits.
+    speed_m_s: f32,
+    /// The variation of the level of this hit.
+    level: f32,
+}
+
+/// Puts the sound of `onset` into an empty voice.
+pub(super) fn cook(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
+    // A speed that is no number is none.
+    if !(onset.speed_m_s >= SILENT_BELOW_M_S) {
+        return;
+    }
+    let speed_m_s = onset.speed_m_s.min(SPEED_MAX_M_S);
+    let mut chance = Chance::new(onset.seed, 0);
+    let level = chance.level(VARIATION.level_db);
+    let pot = Pot { voice, chance, rate_hz, speed_m_s, level };
+    let row = recipe(onset.class);
+    match onset.class {
+        SoundClass::BallClick => ball_click::cook(pot, row),
+        _ => pot.plain(row),
+    }
+}
+
+impl Pot<'_> {
+    /// One contact, its modes and its noise.
+    fn plain(mut self, row: &Recipe) {
+        let length_s = self.length_s(&row.contact);
+        self.modes(row);
+        self.strike(&row.contact, length_s, 0.0, self.speed_m_s, self.drive(row));
+        self.noise(row, 0.0, self.drive(row));
+    }
+
+    /// How strongly the modes and the noise of a row are driven.
+    fn drive(&self, row: &Recipe) -> f32 {
+        libm::powf(self.speed_m_s, row.speed_exponent)
+    }
+
+    /// Length of the contact, with the variation of this hit [s].
+    fn length_s(&mut self, contact: &Contact) -> f32 {
+        let length = contact.at_1_m_s_s * libm::powf(self.speed_m_s, contact.exponent);
+        self.varied(length.clamp(contact.limits_s[0], contact.limits_s[1]))
+    }
+
+    fn varied(&mut self, length_s: f32) -> f32 {
+        length_s * (1.0 + VARIATION.length * self.chance.noise())
+    }
+
+    /// A contact that begins `at_s` after the onset: the ball changes its velocity by the part of
+    /// `speed_m_s` that the row says, the modes are struck by `modes`.
+    fn strike(&mut self, contact: &Contact, length_s: f32, at_s: f32, speed_m_s: f32, modes: f32) {
+        let length = length_s * self.rate_hz;
+        let pulse = Pulse {
+            start: at_s * self.rate_hz,
+            rise: contact.rise * length,
+            fall: (1.0 - contact.rise) * length,
+            sphere_m_s: self.level * contact.sphere * speed_m_s,
+            modes: self.level * modes,
+        };
+        self.voice.last_until(pulse.end() + SPHERE_RINGS_S * self.rate_hz);
+        self.voice.pulses.push(pulse);
+    }
+
+    /// The modes of a row, each with the variation of this hit.
+    fn modes(&mut self, row: &Recipe) {
+        for mode in row.modes {
+            let level = mode.level_pa * self.chance.level(VARIATION.mode_db);
+            // What the rate cannot hold is left out.
+            if mode.frequency_hz < 0.45 * self.rate_hz {
+                let ring = Resonator::new(mode.frequency_hz, mode.t60_s, level, self.rate_hz);
+                self.voice.push_mode(ring);
+            }
+        }
+    }
+
+    /// The noise of a row, `gain` times, from `at_s` on.
+    fn noise(&mut self, row: &Recipe, at_s: f32, gain: f32) {
+        for band in row.noise {
+            let gain = gain * self.level;
+            let burst = Burst::new(band, gain, at_s * self.rate_hz, self.rate_hz);
+            self.voice.last_until(burst.end() as f32);
+            self.voice.push_burst(burst);
+        }
+    }
+
+    /// Lets the modes ring out that were struck last at `at_s`.
+    fn ring_out(&mut self, row: &Recipe, at_s: f32) {
+        let longest = row.modes.iter().map(|mode| mode.t60_s).fold(0.0, f32::max);
+        self.voice.last_until((at_s + longest) * self.rate_hz);
+    }
+}
