@@ -13,7 +13,10 @@ mod control;
 mod keeper;
 mod knobs;
 mod line;
+mod score;
 mod seat;
+#[cfg(feature = "sound")]
+mod wave;
 
 pub use backend::{Backend, NoSound, NotBuilt, Output, Playing, system};
 pub use callback::{Callback, Counters, Due, Loss, RING};
@@ -21,7 +24,10 @@ pub use control::{Sound, Work, Worked};
 pub use keeper::{Joins, Keeper, keep};
 pub use knobs::Knobs;
 pub use line::{Line, News, Open, Wiring};
+pub use score::{Score, score, score_of_facts};
 pub use seat::{Held, Plan, Ports, Seat, Started};
+#[cfg(feature = "sound")]
+pub use wave::{Written, write_wave};
 
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::{Scene, SoundMode, SoundSection};
