@@ -7,13 +7,13 @@
 //!
 //! Parts in the order of the way of a sound: `slot` one sound and its ways to
 //! the ears, `pool` who has to go when there is no room, `moving` balls that roll, `head` and `path`
-//! what the ways are, `bus` sound under way, `room` and `reverb` what the walls send back,
+//! what the ways are, `line` sound under way, `room` and `reverb` what the walls send back,
 //! `limiter` the end.
 
-mod bus;
 mod clean;
 mod head;
 mod limiter;
+mod line;
 mod listener;
 mod moving;
 mod offline;
@@ -34,16 +34,16 @@ pub use settings::{MixSettings, Mode};
 
 use super::level::FULL_SCALE_PA;
 use super::{Bank, Onset, Rolling, RoomTone};
-use bus::Buses;
 use head::TINY;
 use limiter::Limiter;
+use line::Sums;
 use listener::Follower;
 use moving::{Mover, is_heard};
 use path::BLOCK;
 use pool::{Begun, Pool};
 use ramp::Ramp;
 use reverb::Reverb;
-use slot::Slot;
+use slot::Sound;
 use std::sync::Arc;
 use surroundings::{Surroundings, point};
 
@@ -83,7 +83,6 @@ pub struct Mixer {
     frame: u64,
     pool: Pool,
     movers: Box<[Mover]>,
-    buses: Buses,
     reverb: Option<Reverb>,
     /// One an ear, for a sound from all round.
     room_tone: Option<[RoomTone; 2]>,
@@ -104,9 +103,8 @@ impl Mixer {
         Mixer {
             listener: Follower::default(),
             frame: 0,
-            pool: Pool::new(),
-            movers: vec![Mover::free(rate_hz); ROLLING_MAX].into_boxed_slice(),
-            buses: Buses::new(around.delay_max, around.room.is_some()),
+            pool: Pool::new(&around),
+            movers: vec![Mover::free(&around); ROLLING_MAX].into_boxed_slice(),
             reverb: around.room.map(|room| Reverb::new(&room, rate_hz)),
             room_tone: settings.room_tone.then(|| [1, 2].map(|ear| RoomTone::new(ear, rate_hz))),
             wall: [0.0; 2],
@@ -131,10 +129,10 @@ impl Mixer {
             return;
         };
         let at = at_frame.max(self.frame);
-        let slot = Slot::new(onset, position_m, at, &self.around);
+        let sound = Sound::new(onset, position_m, at, &self.around);
         self.work.begun += 1;
         self.work.late += u64::from(at_frame < self.frame);
-        match self.pool.start(slot, self.frame, &self.around, &mut self.buses) {
+        match self.pool.start(sound, self.frame, &self.around) {
             Begun::Free => {}
             Begun::Merged => self.work.merged += 1,
             Begun::Stole | Begun::Dropped => self.work.stolen += 1,
@@ -216,19 +214,12 @@ impl Mixer {
 
     fn mix_within_block(&mut self, out: &mut [[f32; 2]]) {
         let (frame, n) = (self.frame, out.len());
-        self.pool.sound(frame, n, &self.around.bank, &mut self.buses);
-        let mut ears = [[0.0; BLOCK]; 2];
-        let mut send = [0.0; BLOCK];
-        for (ear, lane) in ears.iter_mut().zip(&mut self.buses.direct) {
-            lane.take(frame, &mut ear[..n]);
-        }
-        if self.reverb.is_some() {
-            self.buses.send.take(frame, &mut send[..n]);
-        }
+        let mut sums = Sums::SILENCE;
+        self.pool.sound(frame, n, &self.around, &mut sums);
         for mover in &mut self.movers {
-            mover.sound(frame, &mut ears, &mut send[..n]);
+            mover.sound(frame, n, &mut sums);
         }
-        self.add_room(&mut ears, &send[..n]);
+        let mut ears = self.with_room(&sums, n);
         if let Some(tones) = &mut self.room_tone {
             for (ear, tone) in ears.iter_mut().zip(tones) {
                 ear[..n].iter_mut().for_each(|sum| *sum += tone.next());
@@ -241,21 +232,19 @@ impl Mixer {
         }
     }
 
-    fn add_room(&mut self, ears: &mut [[f32; BLOCK]; 2], send: &[f32]) {
-        let Some(reverb) = &mut self.reverb else { return };
-        for (ear, lane) in self.buses.reflected.iter_mut().enumerate() {
-            let mut reflected = [0.0; BLOCK];
-            lane.take(self.frame, &mut reflected[..send.len()]);
-            for (sum, x) in ears[ear].iter_mut().zip(&reflected[..send.len()]) {
-                self.wall[ear] += (x - self.wall[ear]) * self.wall_share + TINY;
-                *sum += self.wall[ear];
+    /// What comes straight, and what the walls send back.
+    fn with_room(&mut self, sums: &Sums, frames: usize) -> [[f32; BLOCK]; 2] {
+        let mut ears = sums.direct;
+        let Some(reverb) = &mut self.reverb else { return ears };
+        for i in 0..frames {
+            let late = reverb.next(sums.send[i]);
+            for ear in 0..2 {
+                let early = &mut self.wall[ear];
+                *early += (sums.reflected[ear][i] - *early) * self.wall_share + TINY;
+                ears[ear][i] += *early + late[ear];
             }
         }
-        for (i, x) in send.iter().enumerate() {
-            let late = reverb.next(*x);
-            ears[0][i] += late[0];
-            ears[1][i] += late[1];
-        }
+        ears
     }
 }
 

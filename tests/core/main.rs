@@ -48,8 +48,6 @@ mod scene_built;
 mod snooker;
 /// What is heard.
 mod sound;
-/// What is heard.
-mod sound;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.

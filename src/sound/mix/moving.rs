@@ -3,7 +3,8 @@
 
 use super::clean::clean;
 use super::head::{Arrival, Shadow, arrivals};
-use super::path::{BLOCK, lagrange};
+use super::line::{Line, Sums};
+use super::path::BLOCK;
 use super::ramp::Ramp;
 use super::surroundings::{Surroundings, point};
 use crate::ids::BallId;
@@ -11,8 +12,6 @@ use crate::sound::parameters::SOUND_SPEED_M_S;
 use crate::sound::{Rolling, RollingVoice};
 use glam::Vec3;
 
-/// Longest way to an ear [s]: 20 m.
-const LINE_S: f32 = 0.06;
 /// A way that changes faster than this is a jump [m/s].
 const JUMP_M_S: f32 = 20.0;
 /// A ball found this far from where it was awaited was put there [m].
@@ -25,6 +24,8 @@ const FOLLOW_S: f32 = 0.015;
 const REST_M_S: f32 = 1e-3;
 /// A ball is forgotten after this [s].
 const SILENT_S: f32 = 0.1;
+/// And all of it has been heard after this [s].
+const FORGOTTEN_S: f32 = 0.25;
 /// Time of its fading in and out [s].
 const FADE_S: f32 = 0.02;
 /// Time of the cross-fade of a jump [s].
@@ -54,22 +55,22 @@ impl Glide {
 /// One ear's place on the delay line.
 #[derive(Debug, Clone, Copy)]
 struct Tap {
-    /// [frames], 2 at least: the cubic looks ahead.
+    /// [frames].
     delay: Glide,
     gain: Glide,
     shadow: Shadow,
 }
 
 impl Tap {
-    fn new(arrival: &Arrival, line: &Line) -> Tap {
-        let shadow = Shadow::new(arrival.alpha, line.rate_hz);
-        Tap { delay: Glide::at(line.delay(arrival)), gain: Glide::at(arrival.gain), shadow }
+    fn new(arrival: &Arrival, around: &Surroundings) -> Tap {
+        let shadow = Shadow::new(arrival.alpha, around.rate_hz);
+        Tap { delay: Glide::at(delay(arrival, around)), gain: Glide::at(arrival.gain), shadow }
     }
 
-    fn on(&mut self, arrival: &Arrival, line: &Line) {
-        self.delay.on(line.delay(arrival));
+    fn on(&mut self, arrival: &Arrival, around: &Surroundings) {
+        self.delay.on(delay(arrival, around));
         self.gain.on(arrival.gain);
-        self.shadow.turn(arrival.alpha, line.rate_hz);
+        self.shadow.turn(arrival.alpha, around.rate_hz);
     }
 
     /// Stands still where it is.
@@ -88,40 +89,9 @@ impl Tap {
     }
 }
 
-/// What a source said, for as long as it is on its way.
-#[derive(Debug, Clone)]
-struct Line {
-    ring: Box<[f32]>,
-    rate_hz: f32,
-}
-
-impl Line {
-    fn new(rate_hz: f32) -> Line {
-        let frames = (LINE_S * rate_hz) as usize + 2 * BLOCK;
-        Line { ring: vec![0.0; frames.next_power_of_two()].into_boxed_slice(), rate_hz }
-    }
-
-    fn delay(&self, arrival: &Arrival) -> f32 {
-        let frames = arrival.path_m / SOUND_SPEED_M_S * self.rate_hz;
-        frames.clamp(2.0, LINE_S * self.rate_hz)
-    }
-
-    fn write(&mut self, at: u64, x: f32) {
-        let mask = self.ring.len() - 1;
-        self.ring[at as usize & mask] = x;
-    }
-
-    /// What was said `delay` frames before frame `now`.
-    fn read(&self, now: u64, delay: f32) -> f32 {
-        let mask = self.ring.len() - 1;
-        let whole = delay as usize;
-        let taps = lagrange(delay - whole as f32);
-        let newest = (now as usize).wrapping_sub(whole).wrapping_add(1);
-        taps.iter()
-            .enumerate()
-            .map(|(back, tap)| tap * self.ring[newest.wrapping_sub(back) & mask])
-            .sum()
-    }
+/// Of the way to an ear [frames], 2 at least: the cubic looks ahead.
+fn delay(arrival: &Arrival, around: &Surroundings) -> f32 {
+    around.delay(arrival.path_m).max(2.0)
 }
 
 /// A place and a velocity.
@@ -170,14 +140,13 @@ pub struct Mover {
 
 impl Mover {
     /// Room for a ball.
-    pub fn free(rate_hz: f32) -> Mover {
-        let line = Line::new(rate_hz);
+    pub fn free(around: &Surroundings) -> Mover {
         let far = Arrival { path_m: 1.0, gain: 0.0, alpha: 1.0 };
-        let taps = [Tap::new(&far, &line); 2];
+        let taps = [Tap::new(&far, around); 2];
         Mover {
-            line,
+            line: around.line(),
             ball: None,
-            voice: RollingVoice::new(0.0, 0, rate_hz),
+            voice: RollingVoice::new(0.0, 0, around.rate_hz),
             level: Ramp::at(0.0),
             motion: Motion::default(),
             reckoned_at: 0,
@@ -201,7 +170,7 @@ impl Mover {
         let seed = u32::from(rolling.ball.0);
         self.voice = RollingVoice::new(rolling.radius_m, seed, around.rate_hz);
         self.voice.tell(rolling);
-        self.line.ring.fill(0.0);
+        self.line.clear();
         self.level = Ramp::at(0.0);
         self.level.to(1.0, around.frames(FADE_S));
         (self.motion, self.told) = (motion, motion);
@@ -209,7 +178,7 @@ impl Mover {
         self.leaving = None;
         self.arriving = Ramp::at(1.0);
         let arrivals = self.settled(0.0, around);
-        self.taps = arrivals.map(|arrival| Tap::new(&arrival, &self.line));
+        self.taps = arrivals.map(|arrival| Tap::new(&arrival, around));
     }
 
     /// The newest of its ball; what is no number is ignored, and rest is no news.
@@ -277,7 +246,7 @@ impl Mover {
             self.told = self.motion;
             if self.level.target() > 0.0 {
                 self.level.to(0.0, around.frames(FADE_S));
-            } else if silent_s > SILENT_S + FADE_S + 2.0 * LINE_S {
+            } else if silent_s > FORGOTTEN_S {
                 self.ball = None;
                 return;
             }
@@ -290,12 +259,11 @@ impl Mover {
         let on_its_way_s = self.taps.map(|tap| tap.delay.to / around.rate_hz);
         let arrivals = self.arrivals(block_s, on_its_way_s, around);
         let jump = around.delay(JUMP_M_S * block_s);
-        let jumps = |(tap, arrival): (&Tap, &Arrival)| {
-            (self.line.delay(arrival) - tap.delay.to).abs() > jump
-        };
+        let jumps =
+            |(tap, arrival): (&Tap, &Arrival)| (delay(arrival, around) - tap.delay.to).abs() > jump;
         if !self.taps.iter().zip(&arrivals).any(jumps) {
             for (tap, arrival) in self.taps.iter_mut().zip(&arrivals) {
-                tap.on(arrival, &self.line);
+                tap.on(arrival, around);
             }
             return;
         }
@@ -308,35 +276,33 @@ impl Mover {
         }
         self.leaving = Some(old);
         let arrivals = self.settled(block_s, around);
-        self.taps = arrivals.map(|arrival| Tap::new(&arrival, &self.line));
+        self.taps = arrivals.map(|arrival| Tap::new(&arrival, around));
         self.arriving = Ramp::at(0.0);
         self.arriving.to(1.0, around.frames(CROSS_FADE_S));
     }
 
     /// The next frames, `from` on: at most to the end of a block. Adds to both ears, and to the
     /// room.
-    pub fn sound(&mut self, from: u64, ears: &mut [[f32; BLOCK]; 2], room: &mut [f32]) {
+    pub fn sound(&mut self, from: u64, frames: usize, sums: &mut Sums) {
         if self.ball.is_none() {
             return;
         }
         let mut said = [0.0; BLOCK];
-        let said = &mut said[..room.len()];
+        let said = &mut said[..frames];
         self.voice.fill(said);
         clean(said);
         self.level.apply(said);
-        for (i, x) in said.iter().enumerate() {
-            self.line.write(from + i as u64, *x);
-            room[i] += x;
-        }
+        self.line.write(from, said);
+        sums.send.iter_mut().zip(said.iter()).for_each(|(sum, x)| *sum += x);
         let mut arriving = self.arriving;
-        for (ear, sum) in ears.iter_mut().enumerate() {
+        for (ear, sum) in sums.direct.iter_mut().enumerate() {
             arriving = self.arriving;
             let mut heard = [0.0; BLOCK];
-            let heard = &mut heard[..said.len()];
+            let heard = &mut heard[..frames];
             self.taps[ear].hear(&self.line, from, heard);
             if let Some(leaving) = &mut self.leaving {
                 let mut old = [0.0; BLOCK];
-                leaving[ear].hear(&self.line, from, &mut old[..said.len()]);
+                leaving[ear].hear(&self.line, from, &mut old[..frames]);
                 for (new, old) in heard.iter_mut().zip(old) {
                     let share = arriving.next();
                     *new = old + (*new - old) * share;

@@ -1,7 +1,7 @@
 //! The way of a sound that stays where it is, to both ears.
 
-use super::bus::Lane;
 use super::head::{Arrival, Shadow};
+use super::line::Line;
 use super::surroundings::Surroundings;
 
 /// Frames that are mixed in one go at most: where all slow changes are decided, so that the frame
@@ -9,9 +9,6 @@ use super::surroundings::Surroundings;
 pub const BLOCK: usize = 64;
 /// Samples before a run that the fractional delay looks back at.
 pub const BACK: usize = 3;
-
-/// The samples of a source: `BACK` old ones and up to `BLOCK` new ones.
-pub type Run = [f32; BACK + BLOCK];
 
 /// The way to one ear: a delay, a factor and the shadow of the head.
 #[derive(Debug, Clone, Copy)]
@@ -36,18 +33,24 @@ impl EarPath {
         }
     }
 
-    /// What this ear hears of the first `out.len()` new samples of a run, but for the delay.
-    pub fn hear(&mut self, run: &Run, out: &mut [f32]) {
+    /// Frames from a sound's beginning to where it is first heard.
+    pub fn delay(&self) -> u64 {
+        self.delay
+    }
+
+    /// What this ear hears of a line whose sound began at frame `at`, from frame `from` on: up to a
+    /// block of frames. Before the sound comes, `out` stays as it is.
+    pub fn hear(&mut self, line: &mut Line, at: u64, from: u64, out: &mut [f32]) {
+        let silent = (at + self.delay).saturating_sub(from).min(out.len() as u64) as usize;
+        let out = &mut out[silent..];
+        let mut run = [0.0; BACK + BLOCK];
+        let run = &mut run[..BACK + out.len()];
+        line.copy((from + silent as u64).wrapping_sub(self.delay + BACK as u64), run);
         let [t0, t1, t2, t3] = self.taps;
         for (y, x) in out.iter_mut().zip(run.windows(BACK + 1)) {
             *y = t0 * x[3] + t1 * x[2] + t2 * x[1] + t3 * x[0];
         }
         self.shadow.apply(out);
-    }
-
-    /// Hands on what was heard from frame `at` on.
-    pub fn deliver(&self, lane: &mut Lane, at: u64, heard: &[f32]) {
-        lane.add(at + self.delay, heard, 1.0);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The room around the table: what its walls send back, each once.
 
-use super::bus::Buses;
 use super::head::{arrivals, shadow_gain};
+use super::line::{Line, Sums};
 use super::surroundings::Surroundings;
 use glam::Vec3;
 
@@ -113,13 +113,19 @@ impl Reflections {
         Reflections { taps, send }
     }
 
-    /// Hands on what the source says from frame `at` on.
-    pub fn deliver(&self, buses: &mut Buses, at: u64, samples: &[f32]) {
+    /// The longest of its delays [frames].
+    pub fn delay_max(&self) -> u64 {
+        self.taps.iter().flatten().map(|tap| tap.delay).fold(self.send.delay, u64::max)
+    }
+
+    /// Adds what comes of a line from frame `from` on.
+    pub fn add(&self, line: &mut Line, from: u64, frames: usize, sums: &mut Sums) {
         for taps in &self.taps {
-            for (lane, tap) in buses.reflected.iter_mut().zip(taps) {
-                lane.add(at + tap.delay, samples, tap.gain);
+            for (sum, tap) in sums.reflected.iter_mut().zip(taps) {
+                line.add_to(from.wrapping_sub(tap.delay), &mut sum[..frames], tap.gain);
             }
         }
-        buses.send.add(at + self.send.delay, samples, self.send.gain);
+        let sum = &mut sums.send[..frames];
+        line.add_to(from.wrapping_sub(self.send.delay), sum, self.send.gain);
     }
 }

@@ -1,20 +1,18 @@
 //! One sound that has begun, and its ways to the ears.
 
-use super::bus::Buses;
 use super::clean::clean;
 use super::head::arrivals;
-use super::path::{BACK, BLOCK, EarPath, Run};
+use super::line::{Line, Sums};
+use super::path::{BLOCK, EarPath};
 use super::ramp::Ramp;
 use super::room::Reflections;
 use super::surroundings::Surroundings;
 use super::{Listener, Mode};
-use crate::sound::{Bank, Onset, Voice};
+use crate::sound::{Onset, Voice};
 use glam::Vec3;
 
 /// How long the old way of a sound and its new one are heard together [s].
 const CROSS_FADE_S: f32 = 0.010;
-/// How long a sound fades whose slot another one gets [s].
-const STEAL_S: f32 = 0.003;
 /// How fast a sound grows that another one was merged into [s].
 const MERGE_S: f32 = 0.001;
 /// No sound stands for more than this many of its kind, as a factor.
@@ -25,17 +23,17 @@ const MERGED_MAX: f32 = 4.0;
 /// Its ways to the ears are those of its beginning. A listener who moves on while it sounds hears
 /// it cross-fade to new ways, so that no way ever changes under a sound.
 #[derive(Debug, Clone)]
-pub struct Slot {
+pub struct Sound {
     voice: Voice,
     position_m: Vec3,
     /// First frame.
     at: u64,
-    /// Frame after the last one; unknown while the source goes on.
+    /// Frame after the last one at the ears; unknown while the voice goes on.
     ends_at: u64,
-    past: [f32; BACK],
     gain: Ramp,
-    /// Factor of the louder ear, for the choice of the quietest.
+    /// Factor of the louder ear.
     nearness: f32,
+    flying: Flying,
     ways: [EarPath; 2],
     leaving: Option<[EarPath; 2]>,
     /// Share of `ways` beside `leaving`.
@@ -44,22 +42,39 @@ pub struct Slot {
     reflections: Option<Reflections>,
 }
 
-impl Slot {
+/// The loudest that was said and not heard yet, roughly: held as long as it is under way.
+#[derive(Debug, Default, Clone, Copy)]
+struct Flying {
+    peak_pa: f32,
+    until: u64,
+}
+
+impl Flying {
+    fn follow(&mut self, now: u64, said: &[f32], delay: u64) {
+        let peak_pa = said.iter().fold(0.0_f32, |most, x| most.max(x.abs()));
+        let sunk_pa = if now > self.until { self.peak_pa / 2.0 } else { self.peak_pa };
+        if peak_pa >= sunk_pa || now > self.until {
+            *self = Flying { peak_pa: peak_pa.max(sunk_pa), until: now + delay };
+        }
+    }
+}
+
+impl Sound {
     /// Begins at frame `at`, at a place that can be reckoned with.
-    pub fn new(onset: &Onset, position_m: Vec3, at: u64, around: &Surroundings) -> Slot {
+    pub fn new(onset: &Onset, position_m: Vec3, at: u64, around: &Surroundings) -> Sound {
         let voice = Voice::begin(onset, &around.bank, around.rate_hz);
         let (ways, nearness) = ways(&voice, position_m, around);
         let reflections = around
             .room
             .map(|room| Reflections::new(&room, around, position_m, |way| voice.directivity(way)));
-        Slot {
+        Sound {
             voice,
             position_m,
             at,
             ends_at: u64::MAX,
-            past: [0.0; BACK],
             gain: Ramp::at(1.0),
             nearness,
+            flying: Flying::default(),
             ways,
             leaving: None,
             arriving: Ramp::at(1.0),
@@ -70,19 +85,20 @@ impl Slot {
 
     /// What is still to be heard of it, at the louder ear [Pa].
     pub fn loudness(&self) -> f32 {
-        let loudness = self.voice.loudness() * self.gain.target() * self.nearness;
+        let coming_pa = self.voice.loudness() * self.gain.target();
+        let loudness = coming_pa.max(self.flying.peak_pa) * self.nearness;
         if loudness.is_nan() { 0.0 } else { loudness }
     }
 
     /// Distance to another sound of the same class that begins within `frames` of this one [m].
-    pub fn likeness_m(&self, other: &Slot, frames: u64) -> Option<f32> {
-        let alike =
-            self.voice.class() == other.voice.class() && self.at.abs_diff(other.at) <= frames;
+    pub fn likeness_m(&self, other: &Sound, frames: u64) -> Option<f32> {
+        let of_one_class = self.voice.class() == other.voice.class();
+        let alike = of_one_class && self.at.abs_diff(other.at) <= frames;
         alike.then(|| self.position_m.distance(other.position_m))
     }
 
     /// Grows by the power of another one; or cannot, since that is far louder.
-    pub fn merge(&mut self, other: &Slot, around: &Surroundings) -> bool {
+    pub fn merge(&mut self, other: &Sound, around: &Surroundings) -> bool {
         let ratio = other.loudness() / self.loudness();
         let factor = self.gain.target() * (1.0 + ratio * ratio).sqrt();
         // A ratio of nothing to nothing fails as well.
@@ -93,83 +109,84 @@ impl Slot {
         fits
     }
 
-    /// Decides what changes slowly; false when all of it has been heard.
-    pub fn decide(&mut self, now: u64, around: &Surroundings) -> bool {
+    /// Once a block: decides what changes slowly; false when all of it has been heard.
+    pub fn decide(&mut self, now: u64, line: &mut Line, around: &Surroundings) -> bool {
+        let mut said = [0.0; BLOCK];
+        line.copy(now.wrapping_sub(BLOCK as u64), &mut said);
+        self.flying.follow(now, &said, self.ways[0].delay().max(self.ways[1].delay()));
         if self.ends_at == u64::MAX && self.voice.is_over() {
-            self.ends_at = now + around.tail_frames();
+            let walls = self.reflections.as_ref().map_or(0, Reflections::delay_max);
+            let ways = self.ways.iter().chain(self.leaving.iter().flatten());
+            let last = ways.map(EarPath::delay).fold(walls, u64::max);
+            self.ends_at = now + last + around.tail_frames();
         }
         let heard_as_now =
             self.heard_by.1 == around.mode && self.heard_by.0.hears_as(&around.listener);
-        if self.leaving.is_none() && !heard_as_now {
-            let (ways, nearness) = ways(&self.voice, self.position_m, around);
-            self.leaving = Some(std::mem::replace(&mut self.ways, ways));
-            self.nearness = nearness;
+        if self.leaving.is_none() && !heard_as_now && now > self.at {
+            self.turn(around);
+        } else if !heard_as_now && now <= self.at {
+            // Nothing was said yet.
+            (self.ways, self.nearness) = ways(&self.voice, self.position_m, around);
             self.heard_by = (around.listener, around.mode);
-            self.arriving = Ramp::at(0.0);
-            self.arriving.to(1.0, around.frames(CROSS_FADE_S));
         }
         now < self.ends_at
     }
 
-    /// The next frames, `from` on: at most a block.
-    pub fn sound(&mut self, from: u64, frames: usize, bank: &Bank, buses: &mut Buses) {
-        let wait = self.at.saturating_sub(from).min(frames as u64);
-        let (from, frames) = (from + wait, (frames - wait as usize).min(BLOCK));
-        if frames == 0 {
-            return;
-        }
-        let mut run: Run = [0.0; BACK + BLOCK];
-        run[..BACK].copy_from_slice(&self.past);
-        let new = &mut run[BACK..BACK + frames];
-        self.voice.fill(bank, new);
-        clean(new);
-        self.gain.apply(new);
-        if let Some(reflections) = &self.reflections {
-            reflections.deliver(buses, from, new);
-        }
-        self.past.copy_from_slice(&run[frames..frames + BACK]);
-        self.hear(&run, from, frames, buses);
+    /// Begins to be heard by way of where the listener is now.
+    fn turn(&mut self, around: &Surroundings) {
+        let (ways, nearness) = ways(&self.voice, self.position_m, around);
+        self.leaving = Some(std::mem::replace(&mut self.ways, ways));
+        self.nearness = nearness;
+        self.heard_by = (around.listener, around.mode);
+        self.arriving = Ramp::at(0.0);
+        self.arriving.to(1.0, around.frames(CROSS_FADE_S));
     }
 
-    fn hear(&mut self, run: &Run, from: u64, frames: usize, buses: &mut Buses) {
+    /// The next frames, `from` on, at most a block, with its own line.
+    pub fn sound(
+        &mut self,
+        line: &mut Line,
+        from: u64,
+        frames: usize,
+        around: &Surroundings,
+        sums: &mut Sums,
+    ) {
+        let wait = self.at.saturating_sub(from).min(frames as u64) as usize;
+        if wait == frames {
+            return;
+        }
+        let mut said = [0.0; BLOCK];
+        let said = &mut said[wait..frames];
+        self.voice.fill(&around.bank, said);
+        clean(said);
+        self.gain.apply(said);
+        line.write(from + wait as u64, said);
+        self.hear(line, from, frames, sums);
+        if let Some(reflections) = &self.reflections {
+            reflections.add(line, from, frames, sums);
+        }
+    }
+
+    fn hear(&mut self, line: &mut Line, from: u64, frames: usize, sums: &mut Sums) {
         let mut arriving = self.arriving;
-        for (ear, lane) in buses.direct.iter_mut().enumerate() {
+        for (ear, sum) in sums.direct.iter_mut().enumerate() {
             let mut heard = [0.0; BLOCK];
             let heard = &mut heard[..frames];
-            self.ways[ear].hear(run, heard);
+            self.ways[ear].hear(line, self.at, from, heard);
             arriving = self.arriving;
             if let Some(leaving) = &mut self.leaving {
                 let mut old = [0.0; BLOCK];
                 let old = &mut old[..frames];
-                leaving[ear].hear(run, old);
-                for (new, old) in heard.iter_mut().zip(old.iter_mut()) {
-                    let share = arriving.next();
-                    *new *= share;
-                    *old *= 1.0 - share;
+                leaving[ear].hear(line, self.at, from, old);
+                for (new, old) in heard.iter_mut().zip(old) {
+                    *new = *old + (*new - *old) * arriving.next();
                 }
-                leaving[ear].deliver(lane, from, old);
             }
-            self.ways[ear].deliver(lane, from, heard);
+            sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
         }
         self.arriving = arriving;
         if arriving.is_at_rest() {
             self.leaving = None;
-        }
-    }
-
-    /// Fades within 3 ms, all of it written ahead: its slot is free at once.
-    pub fn let_go(mut self, now: u64, around: &Surroundings, buses: &mut Buses) {
-        if self.at >= now {
-            return;
-        }
-        let fade = around.frames(STEAL_S);
-        self.gain.to(0.0, fade);
-        let end = now + u64::from(fade) + around.tail_frames();
-        let mut from = now;
-        while from < end {
-            let frames = (end - from).min(BLOCK as u64);
-            self.sound(from, frames as usize, &around.bank, buses);
-            from += frames;
         }
     }
 }

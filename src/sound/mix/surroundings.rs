@@ -1,14 +1,16 @@
 //! What a sound meets on its way: the listener, the room, and how far the mixer looks ahead.
 
 use super::head::pole_frames;
+use super::line::Line;
+use super::path::{BACK, BLOCK};
 use super::{Listener, MixSettings, Mode, Room};
 use crate::sound::Bank;
 use crate::sound::parameters::{RATES_HZ, SOUND_SPEED_M_S};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// Longest way of a sound [s]: 69 m.
-const DELAY_MAX_S: f32 = 0.2;
+/// Longest way of a sound [s]: 20 m; from further away it comes no later.
+const DELAY_MAX_S: f32 = 0.06;
 /// No coordinate is further out [m]: squares and sums of them stay numbers.
 const FAR_M: f32 = 1e4;
 /// The tail of a head's shadow is over after so many of its frames: below -200 dB.
@@ -44,6 +46,11 @@ impl Surroundings {
             delay_max: (DELAY_MAX_S * rate_hz) as usize,
             bank,
         }
+    }
+
+    /// A line that holds all that is on its way.
+    pub fn line(&self) -> Line {
+        Line::new(self.delay_max + 2 * BLOCK + BACK)
     }
 
     /// Frames in a span of time; at least one.
