@@ -16,7 +16,7 @@ mod rolling;
 mod room_tone;
 mod voice;
 
-pub use bank::{Bank, Clip};
+pub use bank::{Bank, Clip, ClipName, NameError, RECORDING_S_MAX, RecordingError};
 pub use onset::{Onset, Rolling, SoundClass};
 pub use rolling::RollingVoice;
 pub use room_tone::RoomTone;
