@@ -23,7 +23,7 @@ mod script;
 mod timeline;
 mod voice;
 
-pub use bank::{Bank, Clip};
+pub use bank::{Bank, Clip, ClipName, NameError, RECORDING_S_MAX, RecordingError};
 pub use foley::{Foley, Onsets, Rollings};
 pub use mix::{
     AHEAD_MAX_S, Listener, MixSettings, MixWork, Mixer, Mode, ROLLING_MAX, Room, Told, VOICES_MAX,

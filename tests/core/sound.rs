@@ -8,3 +8,12 @@ mod ball_click;
 
 /// The mixer: two ears, many voices, a room.
 mod mix;
+
+/// What facts and snapshots sound like.
+mod foley;
+
+/// From the time of the game to the frames of a stream.
+mod timeline;
+
+/// Real shots, from physics to samples.
+mod shots;
