@@ -164,8 +164,8 @@ impl Callback {
     /// The next frames of a stream of so many channels, in its own format. Two channels are left
     /// and right; one is both; of more the others are silent.
     pub fn fill<T: Copy>(&mut self, out: &mut [T], channels: usize, sample: impl Fn(f32) -> T) {
-        let before = thread_cpu_time();
         let calls = self.allocator.map(|calls| calls());
+        let before = thread_cpu_time();
         let frames = out.len() / channels.max(1);
         for piece in out.chunks_mut(channels.max(1) * BLOCK) {
             let length = piece.len() / channels.max(1);

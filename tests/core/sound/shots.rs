@@ -114,7 +114,7 @@ fn every_onset_of_a_break_stands_at_its_fact_to_the_frame() {
 /// Two balls on a plane that meet at `speed_m_s`; the second lies at x = `at_x`.
 fn meeting(speed_m_s: f64, at_x: f64) -> Simulation {
     let r = POOL_RADIUS_M;
-    let mut comes = BallState::at_rest(BallId(0), DVec3::new(at_x, -0.2 - 2.0 * r, r));
+    let mut comes = BallState::at_rest(BallId(0), DVec3::new(at_x, -0.01 - 2.0 * r, r));
     comes.velocity = DVec3::Y * speed_m_s;
     let lies = BallState::at_rest(BallId(1), DVec3::new(at_x, 0.0, r));
     let balls = vec![(Ball::pool(BallId(0)), comes), (Ball::pool(BallId(1)), lies)];
@@ -123,7 +123,7 @@ fn meeting(speed_m_s: f64, at_x: f64) -> Simulation {
 
 /// The click alone, heard from where the listener is.
 fn click(speed_m_s: f64, at_x: f64, listener: Listener) -> Vec<[f32; 2]> {
-    let (facts, score) = score(meeting(speed_m_s, at_x), 0.2 / speed_m_s + 0.1);
+    let (facts, score) = score(meeting(speed_m_s, at_x), 0.01 / speed_m_s + 0.1);
     let score: Vec<_> =
         score.into_iter().filter(|(_, told)| matches!(told, Told::Start { .. })).collect();
     assert_eq!((facts.len() >= 1, score.len()), (true, 1), "{facts:?}");
