@@ -28,6 +28,8 @@ pub mod input;
 
 pub mod haptic;
 
+pub mod sound;
+
 pub mod observer;
 
 pub mod event_log;
