@@ -17,7 +17,7 @@ mod rolling;
 mod room_tone;
 mod voice;
 
-pub use bank::{Bank, Clip};
+pub use bank::{Bank, Clip, ClipName, NameError, RECORDING_S_MAX, RecordingError};
 pub use mix::{
     AHEAD_MAX_S, Listener, MixSettings, MixWork, Mixer, Mode, ROLLING_MAX, Room, Told, VOICES_MAX,
     render_offline,

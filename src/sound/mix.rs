@@ -236,12 +236,13 @@ impl Mixer {
     fn with_room(&mut self, sums: &Sums, frames: usize) -> [[f32; BLOCK]; 2] {
         let mut ears = sums.direct;
         let Some(reverb) = &mut self.reverb else { return ears };
-        for i in 0..frames {
-            let late = reverb.next(sums.send[i]);
-            for ear in 0..2 {
+        let [left, right] = &mut ears;
+        for (i, send) in sums.send[..frames].iter().enumerate() {
+            let late = reverb.next(*send);
+            for (ear, heard) in [&mut left[i], &mut right[i]].into_iter().enumerate() {
                 let early = &mut self.wall[ear];
                 *early += (sums.reflected[ear][i] - *early) * self.wall_share + TINY;
-                ears[ear][i] += *early + late[ear];
+                *heard += *early + late[ear];
             }
         }
         ears

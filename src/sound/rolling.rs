@@ -3,8 +3,8 @@
 use super::Rolling;
 use super::chance::Chance;
 use super::filter::Filter;
-use super::level::factor;
-use super::parameters::{Rumble, SPEED_MAX_M_S, rolling};
+use super::level::{factor, pascal};
+use super::parameters::{ROLLING, Rumble, SPEED_MAX_M_S};
 use super::voice::usable_rate;
 use core::f32::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -22,7 +22,7 @@ const QUALITY: f32 = 1.0;
 /// Plain data without heap. It never ends; a ball at rest is silent and costs nothing.
 #[derive(Debug, Clone)]
 pub struct RollingVoice {
-    row: Rumble,
+    row: &'static Rumble,
     rate_hz: f32,
     radius_m: f32,
     /// What was told.
@@ -34,6 +34,8 @@ pub struct RollingVoice {
     /// Gains of rumble and hiss now, and how they change per sample.
     gains: [f32; 2],
     slopes: [f32; 2],
+    /// Of rumble and hiss at 1 m/s [Pa].
+    level_pa: [f32; 2],
     /// Gain of the noise in the band of the hiss to a root mean square of 1.
     hiss_norm: f32,
     /// How far the ball has turned [rad].
@@ -46,11 +48,16 @@ pub struct RollingVoice {
 impl RollingVoice {
     /// A ball at rest. `radius_m`: the beat of a turn; `seed`: the noise; `rate_hz`: of the stream.
     pub fn new(radius_m: f32, seed: u32, rate_hz: f32) -> RollingVoice {
-        Self::over(rolling(), radius_m, seed, rate_hz)
+        Self::over(&ROLLING, radius_m, seed, rate_hz)
     }
 
     /// The same over another ground.
-    pub(super) fn over(row: Rumble, radius_m: f32, seed: u32, rate_hz: f32) -> RollingVoice {
+    pub(super) fn over(
+        row: &'static Rumble,
+        radius_m: f32,
+        seed: u32,
+        rate_hz: f32,
+    ) -> RollingVoice {
         let rate_hz = usable_rate(rate_hz);
         let width = (row.hiss_hz[1] - row.hiss_hz[0]) / (0.5 * rate_hz);
         RollingVoice {
@@ -66,6 +73,7 @@ impl RollingVoice {
             ],
             gains: [0.0; 2],
             slopes: [0.0; 2],
+            level_pa: [pascal(row.level_db), pascal(row.hiss_db)],
             hiss_norm: 1.0 / (width / 3.0).sqrt(),
             turned: 0.0,
             left: 0,
@@ -126,8 +134,8 @@ impl RollingVoice {
     fn levels(&self) -> (f32, f32) {
         let [speed, slip] = self.heard;
         let sliding = factor(self.row.sliding_db * (slip / Rumble::SLIDING_M_S).min(1.0));
-        let rumble = self.row.level_pa * libm::powf(speed, self.row.speed_exponent) * sliding;
-        (rumble, self.row.hiss_pa * slip)
+        let rumble = self.level_pa[0] * libm::powf(speed, self.row.speed_exponent) * sliding;
+        (rumble, self.level_pa[1] * slip)
     }
 
     /// Sets filters and gains for the next block.

@@ -2,6 +2,7 @@
 
 use super::chance::Chance;
 use super::filter::Filter;
+use super::level::pascal;
 use super::parameters::ROOM_TONE;
 use super::voice::usable_rate;
 use core::f32::consts::FRAC_1_SQRT_2;
@@ -25,7 +26,7 @@ impl RoomTone {
             low_cut: Filter::new(ROOM_TONE.low_hz, FRAC_1_SQRT_2, rate_hz),
             // A soft corner: half of the way between flat and falling by 6 dB per octave.
             high_cut: Filter::new(ROOM_TONE.high_hz, 0.5, rate_hz),
-            gain: ROOM_TONE.level_pa / (width_hz / (0.5 * rate_hz) / 3.0).sqrt(),
+            gain: pascal(ROOM_TONE.level_db) / (width_hz / (0.5 * rate_hz) / 3.0).sqrt(),
             chance: Chance::new(seed, 3),
         }
     }

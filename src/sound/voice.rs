@@ -4,17 +4,21 @@ mod burst;
 mod pulse;
 mod recipes;
 mod resonator;
+mod run;
 
 use super::bank::{Bank, Clip};
 use super::chance::Chance;
 use super::filter::Filter;
-use super::parameters::{AIR_DENSITY_KG_M3, BALL_RADIUS_M, BROADSIDE, RATES_HZ, SOUND_SPEED_M_S};
+use super::parameters::{
+    AIR_DENSITY_KG_M3, BALL_RADIUS_M, BROADSIDE, RATES_HZ, SILENT_BELOW_M_S, SOUND_SPEED_M_S,
+};
 use super::{Onset, SoundClass};
 use burst::Burst;
 use core::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2, SQRT_2, TAU};
 use glam::Vec3;
 use pulse::{Pulse, Pulses};
 use resonator::Resonator;
+use run::Run;
 
 /// The most modes of one sound.
 const MODES_MAX: usize = 8;
@@ -47,6 +51,7 @@ pub struct Voice {
     modes_count: u8,
     bursts: [Burst; BURSTS_MAX],
     bursts_count: u8,
+    run: Option<Run>,
     chance: Chance,
 }
 
@@ -100,8 +105,8 @@ impl Voice {
     /// Begins the sound of `onset` at the rate of a stream [Hz]: a recording of `bank`, or, where
     /// it has none, the synthesis.
     ///
-    /// Whatever is told, every sample is finite. What has no finite speed or is too slow to be
-    /// heard is over at once.
+    /// Whatever is told, every sample is finite. What has no finite speed, and an impact that is too
+    /// slow to be heard, is over at once.
     pub fn begin(onset: &Onset, bank: &Bank, rate_hz: f32) -> Voice {
         let rate_hz = usable_rate(rate_hz);
         match bank.pick(onset) {
@@ -138,6 +143,7 @@ impl Voice {
             modes_count: 0,
             bursts: [Burst::default(); BURSTS_MAX],
             bursts_count: 0,
+            run: None,
             chance: Chance::new(onset.seed, 1),
         }
     }
@@ -176,6 +182,9 @@ impl Voice {
         for burst in &mut self.bursts[..usize::from(self.bursts_count)] {
             sum += burst.next(self.at, &mut self.chance);
         }
+        if let Some(run) = &mut self.run {
+            sum += run.next(self.at);
+        }
         sum
     }
 
@@ -195,12 +204,13 @@ impl Voice {
     }
 
     /// An estimate of the loudest that is still to be heard [Pa], for stealing the quietest.
-    pub fn loudness(&self) -> f32 {
+    /// `bank` is the one it was begun with.
+    pub fn loudness(&self, bank: &Bank) -> f32 {
         if self.is_over() {
             return 0.0;
         }
         if let Some(clip) = &self.clip {
-            return clip.loudness(self.at);
+            return bank.loudness(clip, self.at);
         }
         let modes = &self.modes[..usize::from(self.modes_count)];
         let bursts = &self.bursts[..usize::from(self.bursts_count)];
@@ -211,7 +221,8 @@ impl Voice {
             let struck: f32 = modes.iter().map(|mode| mode.level() * pulse.modes.abs()).sum();
             self.sphere.peak_pa(pulse) + struck
         });
-        ringing + noise + coming.fold(0.0, f32::max)
+        let runs = self.run.as_ref().map_or(0.0, Run::loudness);
+        ringing + noise + runs + coming.fold(0.0, f32::max)
     }
 
     /// The factor for an ear in the direction `to_ear`, a unit vector from the sound.
@@ -259,6 +270,13 @@ impl Voice {
             self.end += fade;
         }
     }
+}
+
+/// Whether anything of an onset is to be heard: its speed is a finite number, and that of an impact
+/// not too low.
+pub(super) fn is_heard(onset: &Onset) -> bool {
+    let least = if onset.class.is_impact() { SILENT_BELOW_M_S } else { 0.0 };
+    onset.speed_m_s.is_finite() && onset.speed_m_s >= least
 }
 
 /// From 1 to 0 while `part` goes from 0 to 1, flat at both ends.

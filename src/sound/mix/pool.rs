@@ -5,6 +5,7 @@ use super::path::BLOCK;
 use super::ramp::Ramp;
 use super::slot::Sound;
 use super::surroundings::Surroundings;
+use crate::sound::Bank;
 
 /// Sounds at once, at most, beside the balls that roll.
 pub const VOICES_MAX: usize = 64;
@@ -39,8 +40,8 @@ impl Slot {
         self.sound = Some(sound);
     }
 
-    fn loudness(&self) -> f32 {
-        self.sound.as_ref().map_or(0.0, Sound::loudness)
+    fn loudness(&self, bank: &Bank) -> f32 {
+        self.sound.as_ref().map_or(0.0, |sound| sound.loudness(bank))
     }
 }
 
@@ -75,18 +76,18 @@ impl Pool {
             return Begun::Free;
         }
         if let Some(like) = self.most_like(&sound, around)
-            && like.merge(&sound, around)
+            && like.merge(&sound, now, around)
         {
             return Begun::Merged;
         }
         let mut quietest = (f32::INFINITY, 0);
         for (i, slot) in self.slots.iter().enumerate() {
-            let loudness = slot.loudness();
+            let loudness = slot.loudness(&around.bank);
             if loudness < quietest.0 {
                 quietest = (loudness, i);
             }
         }
-        if quietest.0 >= sound.loudness() {
+        if quietest.0 >= sound.loudness(&around.bank) {
             return Begun::Dropped;
         }
         self.let_go(quietest.1, now, around);

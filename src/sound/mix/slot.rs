@@ -8,7 +8,7 @@ use super::ramp::Ramp;
 use super::room::Reflections;
 use super::surroundings::Surroundings;
 use super::{Listener, Mode};
-use crate::sound::{Onset, Voice};
+use crate::sound::{Bank, Onset, Voice};
 use glam::Vec3;
 
 /// How long the old way of a sound and its new one are heard together [s].
@@ -28,8 +28,8 @@ pub struct Sound {
     position_m: Vec3,
     /// First frame.
     at: u64,
-    /// Frame after the last one at the ears; unknown while the voice goes on.
-    ends_at: u64,
+    /// Frame at which nothing more is said.
+    over_at: Option<u64>,
     gain: Ramp,
     /// Factor of the louder ear.
     nearness: f32,
@@ -71,7 +71,7 @@ impl Sound {
             voice,
             position_m,
             at,
-            ends_at: u64::MAX,
+            over_at: None,
             gain: Ramp::at(1.0),
             nearness,
             flying: Flying::default(),
@@ -84,8 +84,8 @@ impl Sound {
     }
 
     /// What is still to be heard of it, at the louder ear [Pa].
-    pub fn loudness(&self) -> f32 {
-        let coming_pa = self.voice.loudness() * self.gain.target();
+    pub fn loudness(&self, bank: &Bank) -> f32 {
+        let coming_pa = self.voice.loudness(bank) * self.gain.target();
         let loudness = coming_pa.max(self.flying.peak_pa) * self.nearness;
         if loudness.is_nan() { 0.0 } else { loudness }
     }
@@ -98,12 +98,14 @@ impl Sound {
     }
 
     /// Grows by the power of another one; or cannot, since that is far louder.
-    pub fn merge(&mut self, other: &Sound, around: &Surroundings) -> bool {
-        let ratio = other.loudness() / self.loudness();
+    pub fn merge(&mut self, other: &Sound, now: u64, around: &Surroundings) -> bool {
+        let ratio = other.loudness(&around.bank) / self.loudness(&around.bank);
         let factor = self.gain.target() * (1.0 + ratio * ratio).sqrt();
         // A ratio of nothing to nothing fails as well.
         let fits = factor <= MERGED_MAX;
-        if fits {
+        if fits && now <= self.at {
+            self.gain = Ramp::at(factor);
+        } else if fits {
             self.gain.to(factor, around.frames(MERGE_S));
         }
         fits
@@ -114,11 +116,8 @@ impl Sound {
         let mut said = [0.0; BLOCK];
         line.copy(now.wrapping_sub(BLOCK as u64), &mut said);
         self.flying.follow(now, &said, self.ways[0].delay().max(self.ways[1].delay()));
-        if self.ends_at == u64::MAX && self.voice.is_over() {
-            let walls = self.reflections.as_ref().map_or(0, Reflections::delay_max);
-            let ways = self.ways.iter().chain(self.leaving.iter().flatten());
-            let last = ways.map(EarPath::delay).fold(walls, u64::max);
-            self.ends_at = now + last + around.tail_frames();
+        if self.over_at.is_none() && self.voice.is_over() {
+            self.over_at = Some(now);
         }
         let heard_as_now =
             self.heard_by.1 == around.mode && self.heard_by.0.hears_as(&around.listener);
@@ -129,7 +128,14 @@ impl Sound {
             (self.ways, self.nearness) = ways(&self.voice, self.position_m, around);
             self.heard_by = (around.listener, around.mode);
         }
-        now < self.ends_at
+        self.over_at.is_none_or(|over_at| now < over_at + self.delay_max() + around.tail_frames())
+    }
+
+    /// The longest of its ways [frames].
+    fn delay_max(&self) -> u64 {
+        let walls = self.reflections.as_ref().map_or(0, Reflections::delay_max);
+        let ways = self.ways.iter().chain(self.leaving.iter().flatten());
+        ways.map(EarPath::delay).fold(walls, u64::max)
     }
 
     /// Begins to be heard by way of where the listener is now.
@@ -179,7 +185,8 @@ impl Sound {
                 let old = &mut old[..frames];
                 leaving[ear].hear(line, self.at, from, old);
                 for (new, old) in heard.iter_mut().zip(old) {
-                    *new = *old + (*new - *old) * arriving.next();
+                    let share = arriving.next();
+                    *new = *old * (1.0 - share) + *new * share;
                 }
             }
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);

@@ -2,6 +2,7 @@
 
 use crate::sound::chance::Chance;
 use crate::sound::filter::Filter;
+use crate::sound::level::pascal;
 use crate::sound::parameters::Band;
 use core::f32::consts::{FRAC_1_SQRT_2, LN_10};
 
@@ -29,7 +30,7 @@ impl Burst {
         let fall = (band.t60_s * rate_hz).max(1.0);
         // White noise of variance 1/3 that passed the band, to 1.
         let width = ((band.high_hz - band.low_hz) / (0.5 * rate_hz)).clamp(1e-6, 1.0);
-        let level = gain * band.level_pa / (width / 3.0).sqrt();
+        let level = gain * pascal(band.level_db) / (width / 3.0).sqrt();
         Burst {
             start,
             end: start.saturating_add((rise + fall) as u32),

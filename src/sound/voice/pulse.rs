@@ -77,10 +77,6 @@ impl Pulses {
         }
     }
 
-    pub(super) fn all(&self) -> &[Pulse] {
-        &self.pulses[..usize::from(self.count)]
-    }
-
     /// Those that are not over.
     pub(super) fn coming(&self) -> &[Pulse] {
         &self.pulses[usize::from(self.first)..usize::from(self.count)]

@@ -1,12 +1,15 @@
 //! How the rows of the table become a sound: one function per class.
 
 mod ball_click;
+mod cue;
+mod fall;
 
 use super::burst::Burst;
 use super::pulse::Pulse;
 use super::resonator::Resonator;
-use super::{SPHERE_RINGS_S, Voice};
+use super::{SPHERE_RINGS_S, Voice, is_heard};
 use crate::sound::chance::Chance;
+use crate::sound::level::pascal;
 use crate::sound::parameters::{
     Contact, Recipe, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, recipe,
 };
@@ -25,18 +28,26 @@ struct Pot<'a> {
 
 /// Puts the sound of `onset` into an empty voice.
 pub(super) fn cook(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
-    // A speed that is no number is none.
-    if !(onset.speed_m_s >= SILENT_BELOW_M_S) {
+    if !is_heard(onset) {
         return;
     }
     let speed_m_s = onset.speed_m_s.min(SPEED_MAX_M_S);
     let mut chance = Chance::new(onset.seed, 0);
-    let level = chance.level(VARIATION.level_db);
+    let mut level = chance.level(VARIATION.level_db);
+    if onset.class.is_impact() {
+        // From nothing at the limit to all of it at twice that.
+        level *= (speed_m_s / SILENT_BELOW_M_S - 1.0).min(1.0);
+    }
     let pot = Pot { voice, chance, rate_hz, speed_m_s, level };
     let row = recipe(onset.class);
     match onset.class {
         SoundClass::BallClick => ball_click::cook(pot, row),
-        _ => pot.plain(row),
+        SoundClass::Miscue => cue::miscue(pot, row),
+        SoundClass::Chalk => cue::chalk(pot, row),
+        SoundClass::Pocket => fall::pocket(pot, row),
+        SoundClass::Gully => fall::gully(pot, row, onset.seed),
+        SoundClass::Floor => fall::floor(pot, row),
+        SoundClass::CueStrike | SoundClass::Cushion | SoundClass::Landing => pot.plain(row),
     }
 }
 
@@ -47,6 +58,7 @@ impl Pot<'_> {
         self.modes(row);
         self.strike(&row.contact, length_s, 0.0, self.speed_m_s, self.drive(row));
         self.noise(row, 0.0, self.drive(row));
+        self.ring_out(row, length_s);
     }
 
     /// How strongly the modes and the noise of a row are driven.
@@ -60,6 +72,12 @@ impl Pot<'_> {
         self.varied(length.clamp(contact.limits_s[0], contact.limits_s[1]))
     }
 
+    /// A whole number, both limits included.
+    fn count(&mut self, limits: [u8; 2]) -> u8 {
+        self.chance.between(f32::from(limits[0]), f32::from(limits[1]) + 1.0) as u8
+    }
+
+    /// A length with the variation of this hit.
     fn varied(&mut self, length_s: f32) -> f32 {
         length_s * (1.0 + VARIATION.length * self.chance.noise())
     }
@@ -82,7 +100,7 @@ impl Pot<'_> {
     /// The modes of a row, each with the variation of this hit.
     fn modes(&mut self, row: &Recipe) {
         for mode in row.modes {
-            let level = mode.level_pa * self.chance.level(VARIATION.mode_db);
+            let level = pascal(mode.level_db) * self.chance.level(VARIATION.mode_db);
             // What the rate cannot hold is left out.
             if mode.frequency_hz < 0.45 * self.rate_hz {
                 let ring = Resonator::new(mode.frequency_hz, mode.t60_s, level, self.rate_hz);
