@@ -26,6 +26,7 @@ fn blocks(mixer: &mut Mixer, count: u32) -> Vec<f64> {
                 mixer.start(mixer.frame(), &onset);
                 k += 1;
             }
+            assert_eq!((mixer.work().voices, mixer.work().rolling), (64, 16));
             let begin = Instant::now();
             mixer.mix(&mut out);
             begin.elapsed().as_secs_f64() / (512.0 / f64::from(RATE_HZ))
@@ -46,6 +47,5 @@ fn a_full_house_costs_this_share_of_the_time_it_sounds() {
             percent(197),
             percent(199)
         );
-        assert_eq!((mixer.work().voices, mixer.work().rolling), (64, 16));
     }
 }

@@ -41,8 +41,7 @@ fn the_sixty_fifth_voice_takes_the_place_of_the_quietest_without_a_click() {
         // The quietest it was, and it left within 3 ms, not at once.
         assert!(peak(&missing) < 0.1 * peak(&without));
         assert!(steepest(&with) < 1.05 * steepest(&without));
-        let at_first = peak(&missing[..20]);
-        assert!(at_first < 0.25 * peak(&missing), "{at_first} {}", peak(&missing));
+        assert!(peak(&missing[..2]) < 0.1 * peak(&missing));
     }
 }
 
