@@ -5,3 +5,6 @@ mod measure;
 
 /// The click of two balls.
 mod ball_click;
+
+/// The mixer: two ears, many voices, a room.
+mod mix;
