@@ -16,6 +16,12 @@ pub const MESH_BYTES_MAX: u64 = 64 << 20;
 
 /// The text of the file at `path`, if it has at most `limit` bytes.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
+    let bytes = read_bytes(path, limit)?;
+    String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
+}
+
+/// What is in the file at `path`, if it has at most `limit` bytes.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
     let failed = |reason| Error::Read { path: path.to_path_buf(), reason };
     let file = File::open(path).map_err(failed)?;
     // A folder cannot be read, and a device may never end.
@@ -27,7 +33,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
     if bytes.len() as u64 > limit {
         return Err(Error::TooLarge { path: path.to_path_buf(), limit });
     }
-    String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
+    Ok(bytes)
 }
 
 /// Opens a file that is read line by line, however long it is.

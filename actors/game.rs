@@ -141,10 +141,10 @@ impl Stage {
     /// `first` is the world before the first tick.
     ///
     /// # Errors
-    /// Balls that do not fit the table.
+    /// Balls that do not fit the table, recordings outside of the scene's folder.
     pub fn sound(&self, first: Arc<Snapshot>, pace: f64) -> Result<Option<sound::Plan>, Error> {
         let foley = self.foley(first.clone())?;
-        Ok(sound::plan(&self.scene, foley, first, pace))
+        Ok(sound::plan(&self.scene, self.folder.as_deref(), foley, first, pace)?)
     }
 
     /// What makes sounds of this game's facts. `first` is the world before the first one.

@@ -6,6 +6,8 @@
 //! thread of its own keeps the device open, and opens it again when it was lost.
 
 mod backend;
+#[cfg(feature = "sound")]
+pub mod bank_files;
 mod callback;
 #[cfg(feature = "sound")]
 mod card;
@@ -29,9 +31,11 @@ pub use seat::{Held, Plan, Ports, Seat, Started};
 #[cfg(feature = "sound")]
 pub use wave::{Written, write_wave};
 
+use crate::files::data_folder;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::{Scene, SoundMode, SoundSection};
-use hapticbillard::sound::{Foley, MixSettings, Mode, Room};
+use hapticbillard::sound::{Bank, Foley, MixSettings, Mode, Room};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -41,19 +45,60 @@ pub const SOUND: &str = "sound";
 /// How long a device that is not there is left alone before it is tried again.
 const RETRY: Duration = Duration::from_secs(1);
 
+/// Where a player's own recordings are looked for, in the folder of the player's data.
+const RECORDINGS: &str = "sounds";
+
 /// What `scene` asks to be heard, in a game that runs at `pace` seconds a second; none if it asks
-/// for nothing. `first` is the world before the first tick.
-pub fn plan(scene: &Scene, foley: Foley, first: Arc<Snapshot>, pace: f64) -> Option<Plan> {
-    let section = scene.sound.as_ref()?;
+/// for nothing. `first` is the world before the first tick; what the scene names is seen from
+/// `folder`.
+///
+/// # Errors
+/// [`NoSound`] if its recordings are not in that folder or below.
+pub fn plan(
+    scene: &Scene,
+    folder: Option<&Path>,
+    foley: Foley,
+    first: Arc<Snapshot>,
+    pace: f64,
+) -> Result<Option<Plan>, NoSound> {
+    let Some(section) = &scene.sound else { return Ok(None) };
     let wiring = Wiring {
         backend: system(),
         device: section.device.clone(),
         settings: mix_settings(section),
+        recordings: recordings(section, folder)?,
         retry: RETRY,
         allocator: None,
     };
     let knobs = Arc::new(Knobs::new(section.volume as f32));
-    Some(Plan { wiring, foley, first, pace, knobs })
+    Ok(Some(Plan { wiring, foley, first, pace, knobs }))
+}
+
+/// Scenes come from anywhere, so their recordings must lie in the scene's own folder or below. A
+/// scene that names none gets the player's, if there are any.
+fn recordings(section: &SoundSection, folder: Option<&Path>) -> Result<Option<PathBuf>, NoSound> {
+    let Some(name) = &section.recordings else {
+        let own = data_folder().ok().map(|folder| folder.join(RECORDINGS));
+        return Ok(own.filter(|folder| folder.is_dir()));
+    };
+    let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    if !Path::new(name).components().all(inside) {
+        return Err(NoSound::Recordings { name: name.clone() });
+    }
+    Ok(Some(folder.unwrap_or(Path::new("")).join(name)))
+}
+
+/// The recordings of a folder, for a stream of this rate [Hz]; what cannot be used is said in the
+/// log, and synthesised.
+pub fn bank(recordings: Option<&Path>, rate_hz: u32) -> Bank {
+    #[cfg(feature = "sound")]
+    if let Some(folder) = recordings {
+        let (bank, refused) = bank_files::read_folder(folder, rate_hz);
+        refused.iter().for_each(|refused| log::warn!("{SOUND}: {refused}"));
+        return bank;
+    }
+    let _ = (recordings, rate_hz);
+    Bank::default()
 }
 
 /// How it is mixed; the rate is the stream's.

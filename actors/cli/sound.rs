@@ -1,5 +1,6 @@
 //! `hapticbillard sound`: what is heard, without playing.
 
+mod bank;
 mod devices;
 mod render;
 
@@ -19,6 +20,7 @@ pub struct SoundArgs {
 #[derive(Debug, Clone, Subcommand)]
 pub enum SoundCommand {
     Render(render::RenderArgs),
+    Bank(bank::BankArgs),
     Devices(devices::DevicesArgs),
 }
 
@@ -26,6 +28,7 @@ pub enum SoundCommand {
 pub fn run(args: &SoundArgs, out: &mut dyn Write) -> Result<Status, Error> {
     match &args.command {
         SoundCommand::Render(args) => render::run(args, out),
+        SoundCommand::Bank(args) => bank::run(args, out),
         SoundCommand::Devices(args) => devices::run(args, out),
     }
 }

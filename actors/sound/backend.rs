@@ -68,6 +68,12 @@ pub enum NoSound {
         /// What it says.
         reason: String,
     },
+    /// A scene's recordings are elsewhere.
+    #[error("recordings = \"{name}\": recordings must lie in the scene's folder or below it")]
+    Recordings {
+        /// What the scene says.
+        name: String,
+    },
     /// The operating system gives no thread.
     #[error("no thread for sound ({0}); end other programs")]
     NoThread(String),

@@ -4,7 +4,8 @@
 
 use super::backend::{Backend, NoSound, Playing};
 use super::callback::{Callback, Counters, Due, Loss};
-use hapticbillard::sound::{Bank, MixSettings, Mixer};
+use hapticbillard::sound::{MixSettings, Mixer};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -44,6 +45,8 @@ pub struct Wiring {
     pub device: Option<String>,
     /// How it is mixed; the rate is the device's.
     pub settings: MixSettings,
+    /// A folder of recordings that stand in for the synthesis.
+    pub recordings: Option<PathBuf>,
     /// How long it waits before it tries again.
     pub retry: Duration,
     /// How often a thread has used its allocator, where a test counts that.
@@ -120,9 +123,11 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
 fn open(wiring: &mut Wiring) -> Result<(Playing, Open), NoSound> {
     let mut ends = None;
     let (settings, allocator) = (wiring.settings, wiring.allocator);
+    let recordings = wiring.recordings.clone();
     let mut make = |rate_hz: u32| {
         let settings = MixSettings { rate_hz: rate_hz as f32, ..settings };
-        let mixer = Mixer::new(settings, Arc::new(Bank::default()));
+        let bank = super::bank(recordings.as_deref(), rate_hz);
+        let mixer = Mixer::new(settings, Arc::new(bank));
         let (callback, tell, counters) = Callback::new(mixer, rate_hz, allocator);
         ends = Some((tell, counters, rate_hz));
         callback

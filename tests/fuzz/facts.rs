@@ -69,6 +69,7 @@ impl Swarm {
                 push: rng.random_bool(0.1),
                 moving: rng.random_bool(0.1),
                 player: rng.random_bool(0.1).then_some(PlayerId::TWO),
+                miscue: false,
                 position_m: Default::default(),
                 normal_speed_m_s: 0.0,
             },

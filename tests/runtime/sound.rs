@@ -37,6 +37,7 @@ pub fn plan(stage: &Stage, speaker: &Speaker) -> Plan {
         backend: speaker.backend(),
         device: None,
         settings: MixSettings::default(),
+        recordings: None,
         retry: Duration::from_millis(20),
         allocator: None,
     };

@@ -75,6 +75,10 @@ pub struct RenderArgs {
     #[arg(long)]
     pub no_room: bool,
 
+    /// A folder of recordings that stand in for the synthesis; `sound bank` shows their names.
+    #[arg(long, value_name = "DIR")]
+    pub recordings: Option<PathBuf>,
+
     /// Fixes everything random, in place of the scene's seed.
     #[arg(long, value_name = "N", conflicts_with = "recording")]
     pub seed: Option<u64>,
@@ -115,8 +119,8 @@ pub fn run(_: &RenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
 /// Renders.
 #[cfg(feature = "sound")]
 pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    use hapticbillard::sound::{Bank, MixSettings, Mixer, Mode, Room, Told};
-    use hapticbillard_actors::sound::write_wave;
+    use hapticbillard::sound::{MixSettings, Mixer, Mode, Room, Told};
+    use hapticbillard_actors::sound::{bank, write_wave};
     use std::sync::Arc;
 
     let score = score(args)?;
@@ -131,7 +135,7 @@ pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
         volume: args.volume as f32,
         ..MixSettings::default()
     };
-    let mut mixer = Mixer::new(settings, Arc::new(Bank::default()));
+    let mut mixer = Mixer::new(settings, Arc::new(bank(args.recordings.as_deref(), args.rate)));
     mixer.set_listener(listener(args));
     let longest_s = args.seconds.unwrap_or(score.end_s + TAIL_S).min(LONGEST_S);
     let end = (longest_s * f64::from(args.rate)) as u64;

@@ -305,7 +305,7 @@ impl Mover {
                 leaving[ear].hear(&self.line, from, &mut old[..frames]);
                 for (new, old) in heard.iter_mut().zip(old) {
                     let share = arriving.next();
-                    *new = old + (*new - old) * share;
+                    *new = old * (1.0 - share) + *new * share;
                 }
             }
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);

@@ -185,7 +185,8 @@ impl Sound {
                 let old = &mut old[..frames];
                 leaving[ear].hear(line, self.at, from, old);
                 for (new, old) in heard.iter_mut().zip(old) {
-                    *new = *old + (*new - *old) * arriving.next();
+                    let share = arriving.next();
+                    *new = *old * (1.0 - share) + *new * share;
                 }
             }
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);

@@ -189,7 +189,14 @@ fn sound_long() {
 
 fn wiring(backend: Box<dyn Backend>) -> Wiring {
     let retry = Duration::from_millis(20);
-    Wiring { backend, device: None, settings: MixSettings::default(), retry, allocator: None }
+    Wiring {
+        backend,
+        device: None,
+        settings: MixSettings::default(),
+        recordings: None,
+        retry,
+        allocator: None,
+    }
 }
 
 #[test]

@@ -54,6 +54,38 @@ fn from_the_side_the_far_ear_is_in_the_shadow_of_the_head() {
     assert!((0.0..3.0).contains(&low), "{low} dB");
 }
 
+/// Where the sound first comes to a third of its peak [frames], between two samples.
+fn arrival(samples: &[f32]) -> f64 {
+    let third = peak(samples) / 3.0;
+    let after = samples.iter().position(|x| x.abs() > third).unwrap();
+    let (low, high) = (samples[after - 1].abs(), samples[after].abs());
+    after as f64 - f64::from((high - third) / (high - low))
+}
+
+#[test]
+fn from_the_side_the_far_ear_hears_31_frames_later() {
+    let delay = |azimuth_deg: f32, distance_m: f32| {
+        let angle = azimuth_deg.to_radians();
+        let place = Vec3::new(libm::sinf(angle), libm::cosf(angle), 0.0) * distance_m;
+        let heard = heard(&mut impulses(), &click(place, 1.0));
+        let [left, right] = [0, 1].map(|ear| arrival(&channel(&heard, ear)));
+        // Their mean is the way to the middle of the head, less what the far ear is behind it.
+        (left - right, (left + right) / 2.0 - f64::from(distance_m / SOUND_M_S * RATE_HZ))
+    };
+    for distance_m in [1.0, 2.0, 5.0] {
+        let (side, _) = delay(90.0, distance_m);
+        assert!((side - 31.0).abs() < 1.2, "{distance_m} m: {side}");
+    }
+    // Woodworth: a/c (θ + sin θ).
+    for azimuth_deg in [0.0, 15.0, 30.0, 60.0, 120.0, 150.0, 180.0_f32] {
+        let sine = libm::sin(f64::from(azimuth_deg.to_radians()));
+        let right = 0.0875 / 343.0 * 48_000.0 * (libm::asin(sine) + sine);
+        let (found, late) = delay(azimuth_deg, 5.0);
+        assert!((found - right).abs() < 1.0, "{azimuth_deg}°: {found} {right}");
+        assert!((-1.0..5.0).contains(&late), "{azimuth_deg}°: {late}");
+    }
+}
+
 #[test]
 fn a_mirrored_source_is_heard_with_the_ears_swapped_and_nothing_else() {
     for make in [field, loudspeakers] {

@@ -29,6 +29,19 @@ pub fn loudspeakers() -> Mixer {
     with(MixSettings { mode: Mode::Loudspeakers, ..MixSettings::default() })
 }
 
+/// A mixer for which a ball's click is a single sample: what it does to a sound, as it is.
+pub fn impulses() -> Mixer {
+    let mut samples = vec![0.0; 2_000];
+    samples[0] = 1.0;
+    // A recording is freed of its mean, and faded at its end.
+    samples[1_999] = -1.0;
+    let mut bank = Bank::default();
+    bank.insert(SoundClass::BallClick, 1.0, &samples, RATE_HZ).unwrap();
+    let mut mixer = Mixer::new(MixSettings::default(), Arc::new(bank));
+    mixer.set_listener(HEAD);
+    mixer
+}
+
 /// The head at the origin.
 pub fn with(settings: MixSettings) -> Mixer {
     let mut mixer = Mixer::new(settings, Arc::new(Bank::default()));
