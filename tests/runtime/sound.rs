@@ -3,6 +3,9 @@
 /// The system's audio library, without hardware.
 #[cfg(all(target_os = "linux", feature = "sound"))]
 mod alsa;
+/// The program.
+#[cfg(feature = "sound")]
+mod program;
 /// A sound card of our own.
 pub mod speaker;
 
