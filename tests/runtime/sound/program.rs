@@ -25,7 +25,8 @@ fn a_scene_and_the_facts_and_samples_of_it_sound_alike() {
     let [whole, again, piped, facts] =
         ["a.wav", "b.wav", "c.wav", "facts.jsonl"].map(|name| path(name));
     let render = |what: [&str; 2], out: &str| {
-        let mut arguments = vec!["sound", "render", "--seconds", "1.5", "--json", "--out", out];
+        let mut arguments =
+            vec!["sound", "render", "--seed", "5", "--seconds", "1.5", "--json", "--out", out];
         arguments.extend(what);
         let output = program(&arguments);
         assert!(output.status.success(), "{output:?}");
@@ -39,6 +40,8 @@ fn a_scene_and_the_facts_and_samples_of_it_sound_alike() {
 
     let simulated = program(&[
         "simulate",
+        "--seed",
+        "5",
         "--scene",
         "break_shot",
         "--until",
