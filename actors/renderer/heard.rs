@@ -53,7 +53,7 @@ impl HeardScreen {
         if knobs.is_muted() {
             written.message.push(words.get("muted"));
         } else if now_s < self.turned_s + SHOWN_S {
-            let percent = format!("{:.0}", knobs.volume() * 100.0);
+            let percent = format!("{:.0}", knobs.share() * 100.0);
             written.message.push(words.fill("volume", "percent", &percent));
         }
     }

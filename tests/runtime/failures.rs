@@ -283,17 +283,19 @@ fn a_speaker_that_is_unplugged_in_a_game_stops_nothing_and_sounds_again_when_it_
     let running = speaker.run();
     let hand = speaker.clone();
     let hand = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(500));
+        while peak(&hand.heard()) < 1e-3 {
+            std::thread::sleep(Duration::from_millis(10));
+        }
         hand.unplug();
         std::thread::sleep(Duration::from_millis(300));
         hand.plug();
         hand.wait_until_open();
         hand.heard().len()
     });
-    let finished = run(setup).unwrap();
+    let finished = run(Setup { limit: Tick(100_000), ..setup }).unwrap();
     let back = hand.join().unwrap();
     drop(running);
-    assert_eq!((finished.end, finished.tick), (End::Limit, Tick(60_000)));
+    assert_eq!((finished.end, finished.tick), (End::Limit, Tick(100_000)));
     assert_eq!(told(&listener, "sound"), [false, true]);
     assert_eq!(speaker.opened(), 2);
     let heard = speaker.heard();
