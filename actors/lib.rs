@@ -10,6 +10,8 @@ pub mod files;
 
 pub mod cpu_time;
 
+pub mod histogram;
+
 pub mod batch;
 
 pub mod kept;

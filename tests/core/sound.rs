@@ -16,3 +16,12 @@ mod safe;
 
 /// The mixer: two ears, many voices, a room.
 mod mix;
+
+/// What facts and snapshots sound like.
+mod foley;
+
+/// From the time of the game to the frames of a stream.
+mod timeline;
+
+/// Real shots, from physics to samples.
+mod shots;
