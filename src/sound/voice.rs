@@ -2,9 +2,9 @@
 
 mod burst;
 mod pulse;
-mod recipes;
 mod resonator;
 mod run;
+mod synthesis;
 
 use super::bank::{Bank, Clip};
 use super::chance::Chance;
@@ -124,7 +124,7 @@ impl Voice {
     /// The synthesis of `onset`, as [`Voice::begin`] does it without a recording.
     fn synthesised(onset: &Onset, rate_hz: f32) -> Voice {
         let mut voice = Voice::empty(onset, rate_hz);
-        recipes::cook(&mut voice, onset, rate_hz);
+        synthesis::synthesise(&mut voice, onset, rate_hz);
         voice.close(rate_hz);
         voice
     }

@@ -3,7 +3,9 @@ use hapticbillard::sound::SoundClass;
 use hapticbillard::sound::SoundClass::{
     BallClick, Chalk, CueStrike, Cushion, Floor, Gully, Landing, Miscue, Pocket,
 };
-use hapticbillard::sound::parameters::{CUE_STRIKE, CUSHION, POCKET_DROP, Recipe, recipe};
+use hapticbillard::sound::parameters::{
+    CUE_STRIKE, CUSHION, ClassParameters, POCKET_DROP, class_parameters,
+};
 use std::f32::consts::PI;
 
 fn samples_of(seconds: f32) -> usize {
@@ -13,7 +15,7 @@ fn samples_of(seconds: f32) -> usize {
 /// Every mode of a row stands out at its place: twice what is around it, and no louder frequency
 /// near it.
 #[track_caller]
-fn check_modes(samples: &[f32], row: &Recipe) {
+fn check_modes(samples: &[f32], row: &ClassParameters) {
     // Begins softly: a sudden begin has every frequency in it.
     let begin = samples_of(0.004) as f32;
     let soft =
@@ -168,7 +170,7 @@ fn chalk_is_some_soft_strokes() {
 #[test]
 fn every_class_has_a_row_that_can_be_heard() {
     for class in SoundClass::ALL {
-        let row = recipe(class);
+        let row = class_parameters(class);
         let [shortest, longest] = row.contact.limits_s;
         assert!(0.0 < shortest && shortest <= longest && longest < 0.01, "{class:?}");
         let level = peak_db(&sound(class, 1.0, 1));
