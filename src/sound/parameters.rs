@@ -158,7 +158,7 @@ pub const CUE_STRIKE: Recipe = Recipe {
         sphere: 1.33,
     },
     speed_exponent: 1.0,
-    modes: &[mode(1_530.0, 0.040, 76.0), mode(3_061.0, 0.030, 79.0), mode(4_592.0, 0.020, 79.0)],
+    modes: &[mode(1_530.0, 0.040, 76.0), mode(3_061.0, 0.030, 80.0), mode(4_592.0, 0.025, 84.0)],
     noise: &[],
 };
 
@@ -194,10 +194,10 @@ pub const CUSHION: Recipe = Recipe {
     },
     speed_exponent: 1.2,
     modes: &[
-        mode(90.0, 0.120, 74.0),
+        mode(90.0, 0.120, 72.0),
         mode(160.0, 0.100, 76.0),
-        mode(240.0, 0.080, 76.0),
-        mode(410.0, 0.060, 78.0),
+        mode(240.0, 0.080, 79.0),
+        mode(410.0, 0.060, 86.0),
     ],
     noise: &[band(500.0, 2_000.0, 0.001, 0.010, 56.0)],
 };

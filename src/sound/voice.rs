@@ -218,8 +218,9 @@ impl Voice {
         let noise: f32 = bursts.iter().map(|burst| burst.loudness(self.at)).sum();
         let blows = self.pulses.coming().iter();
         let coming = blows.map(|pulse| {
-            let struck: f32 = modes.iter().map(|mode| mode.level() * pulse.modes.abs()).sum();
-            self.sphere.peak_pa(pulse) + struck
+            let length = pulse.rise + pulse.fall;
+            let struck: f32 = modes.iter().map(|mode| mode.answer(length)).sum();
+            self.sphere.peak_pa(pulse) + struck * pulse.modes.abs()
         });
         let runs = self.run.as_ref().map_or(0.0, Run::loudness);
         ringing + noise + runs + coming.fold(0.0, f32::max)
