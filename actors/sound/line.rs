@@ -88,12 +88,12 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
     // Nobody ever sends: the sender's end is what is waited for.
     let is_over =
         |wait| matches!(ended.recv_timeout(wait), Err(flume::RecvTimeoutError::Disconnected));
-    let mut told = None;
+    let mut is_told = false;
     loop {
         let reason = match open(&mut wiring) {
             Ok((stream, open)) => {
                 let counters = open.counters.clone();
-                told = None;
+                is_told = false;
                 if news.send(News::Open(open)).is_err() {
                     return;
                 }
@@ -107,13 +107,13 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
             }
             Err(error) => error.to_string(),
         };
-        // The same again is no news.
-        if told.as_ref() != Some(&reason) {
-            if news.send(News::Lost(reason.clone())).is_err() {
-                return;
-            }
-            told = Some(reason);
+        // It is said once that nothing is heard, however often it is tried.
+        if is_told {
+            log::debug!("sound: {reason}");
+        } else if news.send(News::Lost(reason)).is_err() {
+            return;
         }
+        is_told = true;
         if is_over(wiring.retry) {
             return;
         }
