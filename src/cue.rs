@@ -105,3 +105,14 @@ pub struct CuePose {
     /// Whether the tip touches balls.
     pub solid: bool,
 }
+
+impl CuePose {
+    /// Whether the shaft, which widens evenly from tip to butt, lies in a ball at `centre` [m].
+    pub fn shaft_meets(&self, centre: DVec3, radius_m: f64) -> bool {
+        let back = (self.tip - centre).dot(self.direction).clamp(0.0, CUE_LENGTH_M);
+        let share = back / CUE_LENGTH_M;
+        let shaft_m = SHAFT_RADIUS_M + share * (BUTT_RADIUS_M - SHAFT_RADIUS_M);
+        let axis = self.tip - self.direction * back;
+        back > 0.0 && axis.distance(centre) < radius_m + shaft_m
+    }
+}

@@ -42,8 +42,8 @@ pub struct Telemetry {
 }
 
 impl Telemetry {
-    /// Begins a file, if one is wanted, and lets the servo of `watch` tell it every tick. Ticks that
-    /// are lost are counted in its timing.
+    /// Begins a file, if one is wanted, and lets the servo of `watch` tell it every tick. Ticks
+    /// that are lost are counted in its timing.
     ///
     /// # Errors
     /// [`Error`] if the file cannot be created, or there is no thread.

@@ -378,7 +378,7 @@ mod tests {
         );
         assert_eq!(
             Texts::new(Language::German).with_names("Ada", "Bo").verdict(&verdict),
-            "Foul: die Weiße wurde versenkt. Bo darf die Weiße frei legen."
+            "Foul: der Spielball wurde versenkt. Bo darf den Spielball frei legen."
         );
         assert_eq!(
             explain(&verdict, Language::English),

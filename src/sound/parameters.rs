@@ -110,7 +110,7 @@ pub struct Band {
 
 /// What a class of sounds is made of: one row of the table.
 #[derive(Debug, Clone, Copy)]
-pub struct Recipe {
+pub struct ClassParameters {
     /// The contact.
     pub contact: Contact,
     /// Modes and noise grow as the speed to this power [1].
@@ -132,7 +132,7 @@ const fn band(low_hz: f32, high_hz: f32, rise_s: f32, t60_s: f32, level_db: f32)
 /// Two balls. Their contact is Hertz's ([`super::contact::hertz_s`]), what is given here is its
 /// length at 1 m/s. The mode is the lowest of a ball that an impact excites, ₀S₂ (Lamb 1882):
 /// garnish, some 35 dB below the click.
-pub const BALL_CLICK: Recipe = Recipe {
+pub const BALL_CLICK: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 390e-6,
         exponent: -0.2,
@@ -149,7 +149,7 @@ pub const BALL_CLICK: Recipe = Recipe {
 /// video of cue tips); the ball leaves with a third more than the speed of the cue (0.54 kg,
 /// restitution 0.75). Leather gives back slowly. The shaft rings along its length: n c/2L with
 /// c = 4.5 km/s in maple and L = 1.47 m; levels chosen, about 20 dB below the blow.
-pub const CUE_STRIKE: Recipe = Recipe {
+pub const CUE_STRIKE: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 1.7e-3,
         exponent: -0.2,
@@ -158,12 +158,12 @@ pub const CUE_STRIKE: Recipe = Recipe {
         sphere: 1.33,
     },
     speed_exponent: 1.0,
-    modes: &[mode(1_530.0, 0.040, 76.0), mode(3_061.0, 0.030, 79.0), mode(4_592.0, 0.020, 79.0)],
+    modes: &[mode(1_530.0, 0.040, 76.0), mode(3_061.0, 0.030, 80.0), mode(4_592.0, 0.025, 84.0)],
     noise: &[],
 };
 
 /// A tip that slips off: a few short contacts and a scrape (chosen).
-pub const MISCUE: Recipe = Recipe {
+pub const MISCUE: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 0.5e-3,
         exponent: -0.2,
@@ -184,7 +184,7 @@ pub const MISCUE_GAP_S: [f32; 2] = [1e-3, 3e-3];
 
 /// A ball at a cushion: rubber for 3 to 6 ms, which gives back slowly; the rail of wood behind it
 /// rings, the cloth hisses 20 dB below (chosen).
-pub const CUSHION: Recipe = Recipe {
+pub const CUSHION: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 5e-3,
         exponent: -0.25,
@@ -194,16 +194,16 @@ pub const CUSHION: Recipe = Recipe {
     },
     speed_exponent: 1.2,
     modes: &[
-        mode(90.0, 0.120, 74.0),
+        mode(90.0, 0.120, 72.0),
         mode(160.0, 0.100, 76.0),
-        mode(240.0, 0.080, 76.0),
-        mode(410.0, 0.060, 78.0),
+        mode(240.0, 0.080, 79.0),
+        mode(410.0, 0.060, 86.0),
     ],
     noise: &[band(500.0, 2_000.0, 0.001, 0.010, 56.0)],
 };
 
 /// A ball at the back of a pocket: leather (chosen).
-pub const POCKET: Recipe = Recipe {
+pub const POCKET: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 4e-3,
         exponent: -0.2,
@@ -217,7 +217,7 @@ pub const POCKET: Recipe = Recipe {
 };
 
 /// The same ball [`POCKET_DEPTH_M`] below, whatever its speed was (chosen).
-pub const POCKET_DROP: Recipe = Recipe {
+pub const POCKET_DROP: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 3e-3,
         exponent: 0.0,
@@ -235,7 +235,7 @@ pub const POCKET_DEPTH_M: f32 = 0.1;
 
 /// The end of the gully: the ball meets the wood of the tray, and the balls that lie there
 /// (chosen). The click is Hertz's, a third as strong, behind a lid that takes what is above 2 kHz.
-pub const GULLY: Recipe = Recipe {
+pub const GULLY: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 0.7e-3,
         exponent: -0.2,
@@ -255,7 +255,7 @@ pub const GULLY_S: [f32; 2] = [1.4, 2.2];
 pub const GULLY_SPEEDS_M_S: [f32; 2] = [0.5, 1.1];
 
 /// A ball on cloth and slate, from above (chosen).
-pub const LANDING: Recipe = Recipe {
+pub const LANDING: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 1.4e-3,
         exponent: -0.2,
@@ -270,7 +270,7 @@ pub const LANDING: Recipe = Recipe {
 
 /// A ball on a floor of wood, at each bounce. Hertz with a flat body; what is given here is the
 /// length at 1 m/s. Modes of the boards chosen.
-pub const FLOOR: Recipe = Recipe {
+pub const FLOOR: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 390e-6,
         exponent: -0.2,
@@ -292,7 +292,7 @@ pub const FLOOR: Recipe = Recipe {
 pub const FLOOR_RESTITUTION: f32 = 0.5;
 
 /// Chalk on a tip: a few strokes of scraping, equally loud at any speed (chosen).
-pub const CHALK: Recipe = Recipe {
+pub const CHALK: ClassParameters = ClassParameters {
     contact: Contact {
         at_1_m_s_s: 1e-3,
         exponent: 0.0,
@@ -312,7 +312,7 @@ pub const CHALK_STROKES: [u8; 2] = [2, 4];
 pub const CHALK_GAP_S: [f32; 2] = [0.20, 0.28];
 
 /// The row of a class.
-pub fn recipe(class: SoundClass) -> &'static Recipe {
+pub fn class_parameters(class: SoundClass) -> &'static ClassParameters {
     match class {
         SoundClass::BallClick => &BALL_CLICK,
         SoundClass::CueStrike => &CUE_STRIKE,
@@ -332,7 +332,7 @@ pub fn recipe(class: SoundClass) -> &'static Recipe {
 pub fn level_exponent(class: SoundClass) -> f32 {
     match class {
         SoundClass::BallClick | SoundClass::CueStrike | SoundClass::Floor => 1.35,
-        other => recipe(other).speed_exponent,
+        other => class_parameters(other).speed_exponent,
     }
 }
 

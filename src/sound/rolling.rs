@@ -40,6 +40,8 @@ pub struct RollingVoice {
     hiss_norm: f32,
     /// How far the ball has turned [rad].
     turned: f32,
+    /// The part of the way to what was told that is made in one block.
+    follow: f32,
     /// Samples until the next look at speed and slip.
     left: u32,
     chance: Chance,
@@ -76,6 +78,7 @@ impl RollingVoice {
             level_pa: [pascal(row.level_db), pascal(row.hiss_db)],
             hiss_norm: 1.0 / (width / 3.0).sqrt(),
             turned: 0.0,
+            follow: 1.0 - libm::expf(-(BLOCK as f32) / (FOLLOW_S * rate_hz)),
             left: 0,
             chance: Chance::new(seed, 2),
         }
@@ -142,9 +145,8 @@ impl RollingVoice {
     fn look(&mut self) {
         self.left = BLOCK;
         let dt_s = BLOCK as f32 / self.rate_hz;
-        let follow = 1.0 - libm::expf(-dt_s / FOLLOW_S);
         for (heard, told) in self.heard.iter_mut().zip(self.told) {
-            *heard += follow * (told - *heard);
+            *heard += self.follow * (told - *heard);
             // Far below hearing.
             if *heard < 1e-4 && told == 0.0 {
                 *heard = 0.0;

@@ -2,9 +2,9 @@
 
 mod burst;
 mod pulse;
-mod recipes;
 mod resonator;
 mod run;
+mod synthesis;
 
 use super::bank::{Bank, Clip};
 use super::chance::Chance;
@@ -124,7 +124,7 @@ impl Voice {
     /// The synthesis of `onset`, as [`Voice::begin`] does it without a recording.
     fn synthesised(onset: &Onset, rate_hz: f32) -> Voice {
         let mut voice = Voice::empty(onset, rate_hz);
-        recipes::cook(&mut voice, onset, rate_hz);
+        synthesis::synthesise(&mut voice, onset, rate_hz);
         voice.close(rate_hz);
         voice
     }
@@ -218,8 +218,9 @@ impl Voice {
         let noise: f32 = bursts.iter().map(|burst| burst.loudness(self.at)).sum();
         let blows = self.pulses.coming().iter();
         let coming = blows.map(|pulse| {
-            let struck: f32 = modes.iter().map(|mode| mode.level() * pulse.modes.abs()).sum();
-            self.sphere.peak_pa(pulse) + struck
+            let length = pulse.rise + pulse.fall;
+            let struck: f32 = modes.iter().map(|mode| mode.answer(length)).sum();
+            self.sphere.peak_pa(pulse) + struck * pulse.modes.abs()
         });
         let runs = self.run.as_ref().map_or(0.0, Run::loudness);
         ringing + noise + runs + coming.fold(0.0, f32::max)

@@ -14,6 +14,8 @@ mod counting;
 mod event_driven;
 /// Order, delay and interest of the event manager.
 mod event_manager;
+/// What physics tells the rules, each against a shot made for it.
+mod facts;
 /// What a picture shows of a haptic device.
 mod felt;
 /// Closest points by brute force, to measure meshes with.

@@ -5,6 +5,14 @@ mod measure;
 
 /// The click of two balls.
 mod ball_click;
+/// Recordings in place of the synthesis.
+mod bank;
+/// All other classes.
+mod classes;
+/// Balls that roll and slide, and a quiet room.
+mod rolling;
+/// Ends, means, chance and absurd orders.
+mod safe;
 
 /// The mixer: two ears, many voices, a room.
 mod mix;

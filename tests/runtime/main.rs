@@ -56,6 +56,9 @@ mod same_bits;
 mod servo;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
+/// Sound files: a player's recordings, and every class written.
+#[cfg(feature = "sound")]
+mod sound_files;
 /// The stub of the vendor's HD library.
 mod stub_hd;
 /// Who dies and what then.

@@ -48,6 +48,7 @@ impl EventDriven {
     ) {
         self.watch_rails(index, at);
         self.close_segment(at, index);
+        self.book_lift(index, shift);
         let from = self.bodies[index].segment;
         self.bodies[index].turn_into(Segment {
             start_s: at,
@@ -87,6 +88,11 @@ impl EventDriven {
                 changed.push(index);
             }
         }
+    }
+
+    /// Books the height that a ball is moved by.
+    fn book_lift(&mut self, index: usize, shift: DVec3) {
+        self.ledger.integration_j += self.lift_j(&self.bodies[index], shift.z);
     }
 
     /// Adds to a group the balls that its members lean on, or that lean on them.
@@ -186,8 +192,10 @@ impl EventDriven {
             for (a, b, normal) in &pairs {
                 let (one, two) = self.part(at, (*a, DVec3::ZERO), (*b, DVec3::ZERO), *normal);
                 clear &= one == DVec3::ZERO && two == DVec3::ZERO;
-                self.bodies[*a].segment.position += one;
-                self.bodies[*b].segment.position += two;
+                for (index, shift) in [(*a, one), (*b, two)] {
+                    self.book_lift(index, shift);
+                    self.bodies[index].segment.position += shift;
+                }
             }
             if clear {
                 break;

@@ -12,7 +12,7 @@ use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
 use crate::physics::{Ledger, checks, racks, tolerance};
 use crate::units::Seconds;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A pair that has not met for so long has parted in between [s].
 const APART_S: Seconds = 0.05;
@@ -86,25 +86,43 @@ impl EventDriven {
     /// Notes which rails a ball has left in the segment that ends now: it was away from them at its
     /// middle or is at its end.
     pub(super) fn watch_rails(&mut self, index: usize, end: Seconds) {
-        let Some(bed) = self.terrain.bed else { return };
-        let body = &mut self.bodies[index];
+        let body = &self.bodies[index];
         if body.clear_rails == ALL_RAILS && body.held_rails == 0 {
             return;
         }
         let (segment, radius) = (&body.segment, body.ball.radius_m);
-        for at in [0.5 * (segment.start_s + end), end] {
-            let near = near_rails(&bed, segment.position_at(at), radius);
+        for place in [0.5 * (segment.start_s + end), end].map(|at| segment.position_at(at)) {
+            let near = self.rails_at(place, radius);
+            let body = &mut self.bodies[index];
             body.clear_rails |= ALL_RAILS & !near;
             body.held_rails &= near;
         }
     }
 
+    /// The rails that a ball touches.
+    fn rails_at(&self, centre: DVec3, radius_m: f64) -> u8 {
+        // Far inside of the noses there are none.
+        let inside = |bed: crate::table::Bed| {
+            let half = DVec2::new(bed.length_m, bed.width_m) * 0.5;
+            (half - centre.truncate().abs()).min_element() > radius_m + tolerance::APART_M
+        };
+        if self.terrain.bed.is_some_and(inside) {
+            return 0;
+        }
+        let near = self.terrain.near_but(centre, radius_m + tolerance::APART_M, true);
+        let rails = near.iter().map(|(feature, ..)| match self.terrain.surface(*feature) {
+            Surface::Cushion(rail) => rail.bit(),
+            _ => 0,
+        });
+        rails.fold(0, |all, bit| all | bit)
+    }
+
     /// A shot begins here for this ball: it has been away from the rails that it does not touch.
     pub(super) fn clear_touched_rails(&mut self, index: usize) {
         let at = self.done;
+        let position = self.bodies[index].segment.position_at(at);
+        let near = self.rails_at(position, self.bodies[index].ball.radius_m);
         let body = &mut self.bodies[index];
-        let position = body.segment.position_at(at);
-        let near = self.terrain.bed.map_or(0, |bed| near_rails(&bed, position, body.ball.radius_m));
         body.clear_rails = ALL_RAILS & !near;
         body.held_rails = 0;
         body.behind = self.terrain.head_string_x().is_some_and(|head| position.x <= head);
@@ -247,9 +265,13 @@ impl EventDriven {
 
     /// Weight times height [J]; zero for a ball without weight.
     pub(super) fn weight_j(&self, body: &Body, at: Seconds) -> f64 {
+        self.lift_j(body, body.segment.position_at(at).z)
+    }
+
+    /// Weight times a height [m]; zero for a ball without weight [J].
+    pub(super) fn lift_j(&self, body: &Body, height_m: f64) -> f64 {
         let weighs = body.ball.flags.gravity && body.ball.flags.integrate;
-        let g = self.parameters.gravity_m_s2;
-        if weighs { body.ball.mass_kg * g * body.segment.position_at(at).z } else { 0.0 }
+        if weighs { body.ball.mass_kg * self.parameters.gravity_m_s2 * height_m } else { 0.0 }
     }
 
     pub(super) fn momentum(&self, at: Seconds) -> DVec3 {
@@ -380,20 +402,3 @@ impl EventDriven {
 }
 
 const ALL_RAILS: u8 = 0b1111;
-
-/// The rails that a ball is at.
-fn near_rails(bed: &crate::table::Bed, position: DVec3, radius_m: f64) -> u8 {
-    let (x, y) = (0.5 * bed.length_m - radius_m, 0.5 * bed.width_m - radius_m);
-    let mut near = 0;
-    for (rail, gap) in [
-        (Rail::Head, x + position.x),
-        (Rail::Foot, x - position.x),
-        (Rail::Left, y - position.y),
-        (Rail::Right, y + position.y),
-    ] {
-        if gap <= tolerance::APART_M {
-            near |= rail.bit();
-        }
-    }
-    near
-}

@@ -332,7 +332,10 @@ impl Terrain {
         but_main: bool,
     ) -> SmallVec<[(Feature, DVec3, f64); 4]> {
         let mut found: SmallVec<[(Feature, DVec3, f64); 4]> = SmallVec::new();
-        let mut note = |feature: Feature, normal: DVec3, distance: f64| {
+        let note = |found: &mut SmallVec<[(Feature, DVec3, f64); 4]>,
+                    feature: Feature,
+                    normal: DVec3,
+                    distance: f64| {
             let same = |(_, other, _): &(Feature, DVec3, f64)| {
                 other.dot(normal) > 1.0 - tolerance::SAME_NORMAL
             };
@@ -342,7 +345,7 @@ impl Terrain {
         };
         for (number, plane) in self.planes.iter().enumerate() {
             let distance = (centre - plane.point).dot(plane.normal);
-            note(Feature::Plane(number as u32), plane.normal, distance);
+            note(&mut found, Feature::Plane(number as u32), plane.normal, distance);
         }
         if !self.has_mesh() {
             return found;
@@ -355,7 +358,7 @@ impl Terrain {
             let height = patch.normal.dot(centre) - patch.offset;
             if height.abs() <= reach_m && self.holds(&lists, group, centre) {
                 let normal = if height < 0.0 { -patch.normal } else { patch.normal };
-                note(Feature::Patch(group.patch), normal, height.abs());
+                note(&mut found, Feature::Patch(group.patch), normal, height.abs());
             }
         }
         for number in lists.edges {
@@ -364,14 +367,33 @@ impl Terrain {
             if !edge.flat && 0.0 <= along && along <= edge.length_m {
                 let offset = centre - edge.from - edge.along * along;
                 let distance = offset.length();
-                note(Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
+                note(&mut found, Feature::Edge(*number), offset.normalize_or(DVec3::Z), distance);
             }
         }
         for number in lists.corners {
-            let offset = centre - self.corners[*number as usize].point;
-            note(Feature::Corner(*number), offset.normalize_or(DVec3::Z), offset.length());
+            let point = self.corners[*number as usize].point;
+            let offset = centre - point;
+            // Beside an edge that ends here, the edge is nearer: a third point would hold a ball
+            // that is free to turn about two.
+            if offset.length() <= reach_m && !found.iter().any(|(at, ..)| self.ends_in(*at, point))
+            {
+                note(
+                    &mut found,
+                    Feature::Corner(*number),
+                    offset.normalize_or(DVec3::Z),
+                    offset.length(),
+                );
+            }
         }
         found
+    }
+
+    /// Whether this is an edge with an end at a point [m].
+    fn ends_in(&self, feature: Feature, point: DVec3) -> bool {
+        let Feature::Edge(number) = feature else { return false };
+        let edge = &self.edges[number as usize];
+        let ends = [edge.from, edge.from + edge.along * edge.length_m];
+        ends.iter().any(|end| end.distance_squared(point) < SEAM_M * SEAM_M)
     }
 
     /// What a ball that the main patch carries has in reach, if it is as large as the largest.

@@ -8,7 +8,7 @@ use super::closing::{self, Relative};
 use super::segment::Segment;
 use super::swing_meets::STRETCHES;
 use crate::cue::{CuePath, CuePose};
-use crate::events::FactKind;
+use crate::events::{FactKind, TouchedBy};
 use crate::physics::guided_cue::GuidedCue;
 use crate::physics::laws::cue_ball::{Cue, cue_contact};
 use crate::physics::{Parameters, PhysicsError, tolerance};
@@ -208,7 +208,8 @@ impl EventDriven {
         }
         let index = tip.meets.1;
         self.check_finite(at, index)?;
-        let CuePose { tip: centre, velocity, direction, .. } = tip.cue.pose(at);
+        let pose = tip.cue.pose(at);
+        let CuePose { tip: centre, velocity, direction, .. } = pose;
         let has_struck = tip.cue.has_struck;
 
         let body = &self.bodies[index];
@@ -243,6 +244,9 @@ impl EventDriven {
             normal_speed_m_s: approach,
         };
         self.tell(at, kind);
+        if !has_struck {
+            self.tell_shaft(at, index, &pose);
+        }
         if let Some(tip) = &mut self.tip {
             tip.cue.strike(at, index, cue.velocity - velocity);
             tip.meets = (f64::INFINITY, 0);
@@ -270,6 +274,18 @@ impl EventDriven {
             crate::physics::laws::ball_face::bounce(mover, normal, restitution, law.friction);
         self.ledger.momentum.table += impact.impulse;
         self.ledger.face_j += impact.loss_j;
+    }
+
+    /// Balls that lie in the shaft when it strikes were touched by it. They are told, not moved.
+    fn tell_shaft(&mut self, at: Seconds, struck: usize, pose: &CuePose) {
+        for index in 0..self.bodies.len() {
+            let body = &self.bodies[index];
+            let (centre, radius_m) = (body.segment.position_at(at), body.ball.radius_m);
+            if index != struck && body.solid() && pose.shaft_meets(centre, radius_m) {
+                let ball = body.ball.id;
+                self.tell(at, FactKind::BallTouched { ball, by: TouchedBy::Shaft });
+            }
+        }
     }
 
     /// Whether the ball, just struck, meets another while the tip is still on it: within the time

@@ -4,7 +4,8 @@ use super::FixedStep;
 use super::body::{Path, Support};
 use super::sweep::{Contact, Partner};
 use crate::ball::BallPlace;
-use crate::events::FactKind;
+use crate::cue::CuePose;
+use crate::events::{FactKind, TouchedBy};
 use crate::mesh::Surface;
 use crate::physics::laws::choice;
 use crate::physics::laws::cluster::{self, Touch};
@@ -118,11 +119,13 @@ impl FixedStep {
             .iter()
             .flat_map(|index| {
                 let body = &self.bodies[*index];
-                let held = if body.supports.is_empty() {
+                let mut held = if body.supports.is_empty() {
                     SmallVec::new()
                 } else {
                     body.holding(body.path.at(tau))
                 };
+                // A cushion throws back what is pressed into it: a contact of its own.
+                held.retain(|support| !matches!(support.surface, Surface::Cushion(_)));
                 held.into_iter().map(|support| (place(*index), support)).collect::<Vec<_>>()
             })
             .collect();
@@ -464,6 +467,9 @@ impl FixedStep {
             normal_speed_m_s: approach,
         };
         self.tell(at, kind);
+        if !has_struck {
+            self.tell_shaft(at, index, tau, &CuePose { tip, velocity, direction, solid: true });
+        }
         // However softly: whoever waits for the end of a shot shall hear of it.
         self.moved = true;
         let h = self.h;
@@ -471,6 +477,18 @@ impl FixedStep {
             motion.strike(start, tau, h, index, cue.velocity);
         }
         changed
+    }
+
+    /// Balls that lie in the shaft when it strikes were touched by it. They are told, not moved.
+    fn tell_shaft(&mut self, at: Seconds, struck: usize, tau: Seconds, pose: &CuePose) {
+        for index in 0..self.bodies.len() {
+            let body = &self.bodies[index];
+            let (centre, radius_m) = (body.path.at(tau), body.ball.radius_m);
+            if index != struck && body.solid() && pose.shaft_meets(centre, radius_m) {
+                let ball = body.ball.id;
+                self.tell(at, FactKind::BallTouched { ball, by: TouchedBy::Shaft });
+            }
+        }
     }
 
     /// Whether the ball, just struck, meets another while the tip is still on it: within the time

@@ -8,7 +8,6 @@ use super::path::BLOCK;
 use super::ramp::Ramp;
 use super::surroundings::{Surroundings, point};
 use crate::ids::BallId;
-use crate::sound::parameters::SOUND_SPEED_M_S;
 use crate::sound::{Rolling, RollingVoice};
 use glam::Vec3;
 
@@ -177,7 +176,7 @@ impl Mover {
         (self.reckoned_at, self.told_at) = (now, now);
         self.leaving = None;
         self.arriving = Ramp::at(1.0);
-        let arrivals = self.settled(0.0, around);
+        let arrivals = self.arrivals(0.0, around);
         self.taps = arrivals.map(|arrival| Tap::new(&arrival, around));
     }
 
@@ -209,28 +208,14 @@ impl Mover {
         self.motion.position_m = self.motion.position_m.lerp(self.told.position_m, share);
     }
 
-    /// What both ears get `ahead_s` from now of what set out `on_its_way_s` before.
-    fn arrivals(
-        &self,
-        ahead_s: f32,
-        on_its_way_s: [f32; 2],
-        around: &Surroundings,
-    ) -> [Arrival; 2] {
-        let at = |ear: usize| {
-            let motion = self.motion.after(ahead_s - on_its_way_s[ear]);
-            arrivals(&around.listener, around.mode, motion.position_m)[ear]
-        };
-        [at(0), at(1)]
-    }
-
-    /// The same with nothing known of how long the way is: the ball is far slower than its sound,
-    /// so that each round takes the error down to some hundredths.
-    fn settled(&self, ahead_s: f32, around: &Surroundings) -> [Arrival; 2] {
-        let mut arrivals = self.arrivals(ahead_s, [0.0; 2], around);
-        for _ in 0..4 {
-            arrivals = self.arrivals(ahead_s, arrivals.map(|a| a.path_m / SOUND_SPEED_M_S), around);
-        }
-        arrivals
+    /// What both ears get `ahead_s` from now.
+    ///
+    /// The way is taken from where the ball is when it is heard, not from where it was when the
+    /// sound left it: the pitch is 1 ± v/c, not 1 / (1 ∓ v/c), which differ by (v/c)²; and a ball
+    /// that turns back at a cushion makes no jump.
+    fn arrivals(&self, ahead_s: f32, around: &Surroundings) -> [Arrival; 2] {
+        let motion = self.motion.after(ahead_s);
+        arrivals(&around.listener, around.mode, motion.position_m)
     }
 
     /// Once a block, before its first frame: goes on along its way, and frees itself when nothing
@@ -256,8 +241,7 @@ impl Mover {
     }
 
     fn turn_taps(&mut self, block_s: f32, around: &Surroundings) {
-        let on_its_way_s = self.taps.map(|tap| tap.delay.to / around.rate_hz);
-        let arrivals = self.arrivals(block_s, on_its_way_s, around);
+        let arrivals = self.arrivals(block_s, around);
         let jump = around.delay(JUMP_M_S * block_s);
         let jumps =
             |(tap, arrival): (&Tap, &Arrival)| (delay(arrival, around) - tap.delay.to).abs() > jump;
@@ -275,7 +259,6 @@ impl Mover {
             return;
         }
         self.leaving = Some(old);
-        let arrivals = self.settled(block_s, around);
         self.taps = arrivals.map(|arrival| Tap::new(&arrival, around));
         self.arriving = Ramp::at(0.0);
         self.arriving.to(1.0, around.frames(CROSS_FADE_S));

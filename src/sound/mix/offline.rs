@@ -36,8 +36,9 @@ impl Mixer {
     }
 }
 
-/// Mixes up to frame `end`: tells each thing of `score` at its frame (or at once if that is over;
-/// frames must not fall), and hands the frames on in runs of up to 4 096.
+/// Mixes up to frame `end`, and hands the frames on in runs of up to 4 096. Tells each thing of
+/// `score` at its frame, or at once if that is over; frames must not fall, and what is due at `end`
+/// or later is left.
 ///
 /// # Errors
 /// What `hand_on` says ends it.
@@ -57,7 +58,10 @@ pub fn render_offline<E>(
         Ok(())
     };
     for (frame, told) in score {
-        mix_to(mixer, frame.min(end))?;
+        if frame >= end {
+            break;
+        }
+        mix_to(mixer, frame)?;
         mixer.tell(&told);
     }
     mix_to(mixer, end)

@@ -14,6 +14,8 @@ pub(super) struct Burst {
     low_cut: Filter,
     high_cut: Filter,
     level: f32,
+    /// Root mean square when it is loudest [Pa].
+    loudest_pa: f32,
     /// Of the rise, from 0 to 1 [per sample].
     rise: f32,
     fall: f32,
@@ -30,13 +32,14 @@ impl Burst {
         let fall = (band.t60_s * rate_hz).max(1.0);
         // White noise of variance 1/3 that passed the band, to 1.
         let width = ((band.high_hz - band.low_hz) / (0.5 * rate_hz)).clamp(1e-6, 1.0);
-        let level = gain * pascal(band.level_db) / (width / 3.0).sqrt();
+        let loudest_pa = gain * pascal(band.level_db);
         Burst {
             start,
             end: start.saturating_add((rise + fall) as u32),
             low_cut: Filter::new(band.low_hz, FRAC_1_SQRT_2, rate_hz),
             high_cut: Filter::new(band.high_hz, FRAC_1_SQRT_2, rate_hz),
-            level,
+            level: loudest_pa / (width / 3.0).sqrt(),
+            loudest_pa,
             rise: 1.0 / rise,
             fall: libm::expf(-3.0 * LN_10 / fall),
             risen: 0.0,
@@ -64,6 +67,6 @@ impl Burst {
 
     /// How loud it is, or will be.
     pub(super) fn loudness(&self, at: u32) -> f32 {
-        if at < self.end { self.level * self.fallen } else { 0.0 }
+        if at < self.end { self.loudest_pa * self.fallen } else { 0.0 }
     }
 }

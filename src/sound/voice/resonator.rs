@@ -1,6 +1,6 @@
 //! A body that rings at one frequency after it was struck.
 
-use core::f32::consts::TAU;
+use core::f32::consts::{FRAC_1_PI, TAU};
 
 /// Far below hearing, far above the smallest normal number: what it is added to never becomes
 /// subnormal, which would make a processor a hundred times slower.
@@ -14,7 +14,6 @@ pub(super) struct Resonator {
     state: [f32; 2],
     /// On both parts of the state; they make the answer to a constant force zero.
     out: [f32; 2],
-    level: f32,
 }
 
 impl Resonator {
@@ -25,7 +24,7 @@ impl Resonator {
         let turn = [shrink * libm::cosf(angle), shrink * libm::sinf(angle)];
         // The sum of the answer to one blow is out · (1/(1 - turn)).
         let (re, im) = (1.0 - turn[0], turn[1]);
-        Resonator { turn, state: [0.0; 2], out: [level, -level * re / im], level }
+        Resonator { turn, state: [0.0; 2], out: [level, -level * re / im] }
     }
 
     /// The next sample, with `blow` struck in it.
@@ -36,13 +35,18 @@ impl Resonator {
         self.out[0] * self.state[0] + self.out[1] * self.state[1]
     }
 
-    /// What a blow of 1 gives.
-    pub(super) fn level(&self) -> f32 {
-        self.level
+    /// About what a blow of 1 gives that lasts for `length` samples: the envelope of the spectrum
+    /// of half a sine.
+    pub(super) fn answer(&self, length: f32) -> f32 {
+        let [re, im] = self.turn;
+        // |1 - turn| is about the angle per sample.
+        let angle = ((1.0 - re) * (1.0 - re) + im * im).sqrt();
+        let half_periods = angle * length * FRAC_1_PI;
+        self.out[0] / (half_periods * half_periods).max(1.0)
     }
 
     /// How loud it is.
     pub(super) fn loudness(&self) -> f32 {
-        self.level * self.state[0].abs().max(self.state[1].abs())
+        self.out[0] * self.state[0].abs().max(self.state[1].abs())
     }
 }

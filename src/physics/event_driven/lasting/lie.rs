@@ -18,9 +18,7 @@ impl EventDriven {
         let reach = radius + 4.0 * TOUCH_M;
         let mut contacts: Contacts = self.terrain.near(centre, reach);
         contacts.retain(|contact| !parts(contact, velocity));
-        for (_, normal, distance) in &contacts {
-            centre += *normal * (radius - distance);
-        }
+        centre += onto(&contacts, radius);
         if contacts.len() > 1 {
             // Moving out of one may move into another.
             for (_, normal, distance) in self.terrain.near(centre, radius) {
@@ -109,4 +107,20 @@ impl EventDriven {
         }
         centre
     }
+}
+
+/// How often the contacts of a ball are gone through to lay it on all of them.
+const ROUNDS: usize = 4;
+
+/// The shift that lays a ball of this radius [m] on all that it touches. Two that face nearly the
+/// same way ask for the same shift, once.
+fn onto(contacts: &Contacts, radius_m: f64) -> DVec3 {
+    let mut shift = DVec3::ZERO;
+    let rounds = if contacts.len() > 1 { ROUNDS } else { 1 };
+    for _ in 0..rounds {
+        for (_, normal, distance) in contacts {
+            shift += *normal * (radius_m - distance - normal.dot(shift));
+        }
+    }
+    shift
 }

@@ -106,7 +106,7 @@ fn play(seed: u64, frames: u64) -> Vec<[f32; 2]> {
     mixer.set_mode(Mode::Headphones);
     mixer.set_listener(HEAD);
     mixer.set_volume(1.0);
-    hear(&mut mixer, 400_000);
+    hear(&mut mixer, 200_000);
     let again = heard(&mut mixer, &click(Vec3::Y, 1.0));
     let loudest = peak(&channel(&again, 0));
     assert!((1e-3..0.5).contains(&loudest), "seed {seed}: {loudest}, {:?}", mixer.work());
@@ -116,7 +116,7 @@ fn play(seed: u64, frames: u64) -> Vec<[f32; 2]> {
 #[test]
 fn whatever_it_is_told_a_mixer_says_numbers_from_minus_one_to_one() {
     let mut loud = 0;
-    for seed in 0..24 {
+    for seed in 0..16 {
         let out = play(seed, 20_000);
         assert_eq!(out.len(), 20_000);
         for (frame, [left, right]) in out.iter().enumerate() {
@@ -124,11 +124,11 @@ fn whatever_it_is_told_a_mixer_says_numbers_from_minus_one_to_one() {
             assert!(fine(*left) && fine(*right), "seed {seed}, frame {frame}: {left} {right}");
         }
         loud += usize::from(peak(&channel(&out, 0)) > 0.01);
-        if seed < 4 {
+        if seed < 3 {
             assert!(play(seed, 20_000) == out, "seed {seed}");
         }
     }
-    assert!(loud > 8, "{loud}");
+    assert!(loud > 5, "{loud}");
 }
 
 #[test]

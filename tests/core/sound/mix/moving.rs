@@ -54,9 +54,8 @@ fn pitch(from_m: Vec3, velocity_m_s: Vec3) -> f64 {
 fn at_10_metres_a_second_the_pitch_is_2_9_per_cent_up_and_down() {
     let towards = pitch(Vec3::new(0.0, 8.0, 0.0), Vec3::new(0.0, -10.0, 0.0));
     let away = pitch(Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 10.0, 0.0));
-    // A source that moves: 1 / (1 - v/c) and 1 / (1 + v/c).
-    assert!((towards - 1.030).abs() < 0.0015, "{towards}");
-    assert!((away - 0.9717).abs() < 0.0015, "{away}");
+    assert!((towards - 1.029).abs() < 0.0015, "{towards}");
+    assert!((away - 0.971).abs() < 0.0015, "{away}");
     let across = pitch(Vec3::new(-3.5, 15.0, 0.0), Vec3::new(10.0, 0.0, 0.0));
     assert!((across - 1.0).abs() < 0.0025, "{across}");
 }

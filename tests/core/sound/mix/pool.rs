@@ -91,10 +91,18 @@ fn a_merged_hit_is_heard_with_the_power_of_both() {
 }
 
 #[test]
-fn voices_end_and_free_their_slots() {
+fn voices_end_free_their_slots_and_leave_no_slow_numbers() {
     let mut mixer = full_house();
     hear(&mut mixer, 100_000);
     assert_eq!(mixer.work().voices, 0);
     let silence = hear(&mut mixer, 20_000);
     assert!(peak(&channel(&silence, 0)) < 1e-9);
+
+    // The tails of the filters of a room fall for ever.
+    let mut mixer = cellar();
+    mixer.start(0, &click(Vec3::Y, 1.0));
+    mixer.roll(&rolling(1, Vec3::Y, Vec3::X));
+    let out = hear(&mut mixer, 500_000);
+    assert!(!out.iter().flatten().any(|x| x.is_subnormal()));
+    assert!(peak(&channel(&out[400_000..], 0)) < 1e-15);
 }

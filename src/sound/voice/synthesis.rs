@@ -11,12 +11,12 @@ use super::{SPHERE_RINGS_S, Voice, is_heard};
 use crate::sound::chance::Chance;
 use crate::sound::level::pascal;
 use crate::sound::parameters::{
-    Contact, Recipe, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, recipe,
+    ClassParameters, Contact, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, class_parameters,
 };
 use crate::sound::{Onset, SoundClass};
 
 /// What all functions need.
-struct Pot<'a> {
+struct Synthesis<'a> {
     voice: &'a mut Voice,
     chance: Chance,
     rate_hz: f32,
@@ -27,7 +27,7 @@ struct Pot<'a> {
 }
 
 /// Puts the sound of `onset` into an empty voice.
-pub(super) fn cook(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
+pub(super) fn synthesise(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
     if !is_heard(onset) {
         return;
     }
@@ -38,22 +38,22 @@ pub(super) fn cook(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
         // From nothing at the limit to all of it at twice that.
         level *= (speed_m_s / SILENT_BELOW_M_S - 1.0).min(1.0);
     }
-    let pot = Pot { voice, chance, rate_hz, speed_m_s, level };
-    let row = recipe(onset.class);
+    let synthesis = Synthesis { voice, chance, rate_hz, speed_m_s, level };
+    let row = class_parameters(onset.class);
     match onset.class {
-        SoundClass::BallClick => ball_click::cook(pot, row),
-        SoundClass::Miscue => cue::miscue(pot, row),
-        SoundClass::Chalk => cue::chalk(pot, row),
-        SoundClass::Pocket => fall::pocket(pot, row),
-        SoundClass::Gully => fall::gully(pot, row, onset.seed),
-        SoundClass::Floor => fall::floor(pot, row),
-        SoundClass::CueStrike | SoundClass::Cushion | SoundClass::Landing => pot.plain(row),
+        SoundClass::BallClick => ball_click::ball_click(synthesis, row),
+        SoundClass::Miscue => cue::miscue(synthesis, row),
+        SoundClass::Chalk => cue::chalk(synthesis, row),
+        SoundClass::Pocket => fall::pocket(synthesis, row),
+        SoundClass::Gully => fall::gully(synthesis, row, onset.seed),
+        SoundClass::Floor => fall::floor(synthesis, row),
+        SoundClass::CueStrike | SoundClass::Cushion | SoundClass::Landing => synthesis.plain(row),
     }
 }
 
-impl Pot<'_> {
+impl Synthesis<'_> {
     /// One contact, its modes and its noise.
-    fn plain(mut self, row: &Recipe) {
+    fn plain(mut self, row: &ClassParameters) {
         let length_s = self.length_s(&row.contact);
         self.modes(row);
         self.strike(&row.contact, length_s, 0.0, self.speed_m_s, self.drive(row));
@@ -62,7 +62,7 @@ impl Pot<'_> {
     }
 
     /// How strongly the modes and the noise of a row are driven.
-    fn drive(&self, row: &Recipe) -> f32 {
+    fn drive(&self, row: &ClassParameters) -> f32 {
         libm::powf(self.speed_m_s, row.speed_exponent)
     }
 
@@ -98,7 +98,7 @@ impl Pot<'_> {
     }
 
     /// The modes of a row, each with the variation of this hit.
-    fn modes(&mut self, row: &Recipe) {
+    fn modes(&mut self, row: &ClassParameters) {
         for mode in row.modes {
             let level = pascal(mode.level_db) * self.chance.level(VARIATION.mode_db);
             // What the rate cannot hold is left out.
@@ -110,7 +110,7 @@ impl Pot<'_> {
     }
 
     /// The noise of a row, `gain` times, from `at_s` on.
-    fn noise(&mut self, row: &Recipe, at_s: f32, gain: f32) {
+    fn noise(&mut self, row: &ClassParameters, at_s: f32, gain: f32) {
         for band in row.noise {
             let gain = gain * self.level;
             let burst = Burst::new(band, gain, at_s * self.rate_hz, self.rate_hz);
@@ -120,7 +120,7 @@ impl Pot<'_> {
     }
 
     /// Lets the modes ring out that were struck last at `at_s`.
-    fn ring_out(&mut self, row: &Recipe, at_s: f32) {
+    fn ring_out(&mut self, row: &ClassParameters, at_s: f32) {
         let longest = row.modes.iter().map(|mode| mode.t60_s).fold(0.0, f32::max);
         self.voice.last_until((at_s + longest) * self.rate_hz);
     }
