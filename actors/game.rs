@@ -137,8 +137,8 @@ impl Stage {
         Ok(haptic::plan(&self.scene, self.folder.as_deref(), &self.table, &balls)?)
     }
 
-    /// What the scene asks to be heard, if anything, in a game that runs at `pace` seconds a second.
-    /// `first` is the world before the first tick.
+    /// What the scene asks to be heard, if anything, in a game that runs at `pace` seconds a
+    /// second. `first` is the world before the first tick.
     ///
     /// # Errors
     /// Balls that do not fit the table, recordings outside of the scene's folder.

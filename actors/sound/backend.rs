@@ -28,9 +28,9 @@ pub trait Backend: Send {
     /// [`NoSound`] if the system cannot be asked.
     fn outputs(&mut self) -> Result<Vec<Output>, NoSound>;
 
-    /// Opens the output of this name, or the system's own choice, and lets it play what the callback
-    /// that `make` makes for its rate [Hz] gives. `make` may be called again where the first try is
-    /// refused: the last callback plays.
+    /// Opens the output of this name, or the system's own choice, and lets it play what the
+    /// callback that `make` makes for its rate [Hz] gives. `make` may be called again where the
+    /// first try is refused: the last callback plays.
     ///
     /// # Errors
     /// [`NoSound`] if there is none.
@@ -60,7 +60,8 @@ pub enum NoSound {
     },
     /// The output does not do what is needed.
     #[error(
-        "the sound device {device} cannot be used ({reason}); choose another one with device = \"..\""
+        "the sound device {device} cannot be used ({reason}); choose \
+         another one with device = \"..\""
     )]
     Refused {
         /// Which.

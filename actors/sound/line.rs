@@ -97,12 +97,15 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
                 if news.send(News::Open(open)).is_err() {
                     return;
                 }
-                while counters.loss() == Loss::None {
-                    if is_over(LOOK) {
-                        return;
-                    }
+                let mut is_wanted = true;
+                while is_wanted && counters.loss() == Loss::None {
+                    is_wanted = !is_over(LOOK);
                 }
                 drop(stream);
+                sum_up(&counters);
+                if !is_wanted {
+                    return;
+                }
                 counters.loss().reason().to_string()
             }
             Err(error) => error.to_string(),
@@ -118,6 +121,21 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
             return;
         }
     }
+}
+
+/// What a stream has counted, for the log.
+fn sum_up(counters: &Counters) {
+    log::info!(
+        "sound: played {} frames; {} times the device ran dry, {} sounds were late, {} dropped; a \
+         callback took {} us in the median, {} us in 99 of 100, {} us at most",
+        counters.frames(),
+        counters.xruns(),
+        counters.late(),
+        counters.dropped(),
+        counters.work.quantile(0.5) / 1000,
+        counters.work.quantile(0.99) / 1000,
+        counters.work.most() / 1000,
+    );
 }
 
 fn open(wiring: &mut Wiring) -> Result<(Playing, Open), NoSound> {

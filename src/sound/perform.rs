@@ -5,11 +5,11 @@ use super::{Mixer, Told};
 /// Things told between two frames at most: who tells more is heard in the next block.
 const TOLD_MAX: usize = 8192;
 
-/// Mixes the next frames, and on the way tells the mixer everything exactly at its frame, or at once
-/// if that is over.
+/// Mixes the next frames, and on the way tells the mixer everything exactly at its frame, or at
+/// once if that is over.
 ///
-/// `next_before` gives the next thing whose frame lies before the one it is asked for, once each, in
-/// order. Where a stream is cut into blocks changes no bit, and it is the same as
+/// `next_before` gives the next thing whose frame lies before the one it is asked for, once each,
+/// in order. Where a stream is cut into blocks changes no bit, and it is the same as
 /// [`super::render_offline`] gives.
 pub fn perform(
     mixer: &mut Mixer,

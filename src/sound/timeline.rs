@@ -4,7 +4,7 @@ use crate::units::Seconds;
 
 /// What the way from the game to the callback may take beside the callback's own period [s].
 const MARGIN_S: f64 = 0.005;
-/// How much farther ahead than it begins an onset may come to lie before it counts as too early [s].
+/// How much farther ahead than the first an onset may come to lie before it is too early [s].
 const SLACK_S: f64 = 0.010;
 /// After so long a silence [s] nobody can tell a spacing any more: then the lead is set anew, and
 /// what two clocks drifted apart is gone.
@@ -22,8 +22,8 @@ pub struct Stream {
 /// Says at which frame a moment of the game is to be heard.
 ///
 /// As long as game and stream run at one pace, all moments are late by the same lead, so that two
-/// onsets are as far apart as physics has them, to the frame. The lead is a period of the stream and
-/// [`MARGIN_S`]: whatever is told before the callback's next turn comes in time. When the game has
+/// onsets are as far apart as physics has them, to the frame. The lead is a period of the stream
+/// and [`MARGIN_S`]: whatever is told before the callback's next turn comes in time. When the game has
 /// stood still, lagged, or run ahead, the lead is set anew; nothing is ever put into the past, and
 /// nothing before what was told already.
 #[derive(Debug, Clone)]

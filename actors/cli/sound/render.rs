@@ -53,8 +53,8 @@ pub struct RenderArgs {
     #[arg(long, value_enum, default_value_t)]
     pub mode: ModeName,
 
-    /// Where it is heard from, in metres; the listener faces the middle of the table. Without it: at
-    /// the head end.
+    /// Where it is heard from, in metres; the listener faces the middle of the table. Without it:
+    /// at the head end.
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub listener: Option<Vec3>,
 
