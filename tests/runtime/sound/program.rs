@@ -22,8 +22,7 @@ fn energy(heard: &[[f32; 2]], ear: usize) -> f64 {
 fn a_scene_and_the_facts_and_samples_of_it_sound_alike() {
     let folder = folder("render_alike");
     let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
-    let [whole, again, piped, facts] =
-        ["a.wav", "b.wav", "c.wav", "facts.jsonl"].map(|name| path(name));
+    let [whole, again, piped, facts] = ["a.wav", "b.wav", "c.wav", "facts.jsonl"].map(path);
     let render = |what: [&str; 2], out: &str| {
         let mut arguments =
             vec!["sound", "render", "--seed", "5", "--seconds", "1.5", "--json", "--out", out];
