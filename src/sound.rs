@@ -4,8 +4,8 @@
 //! fact; [`Rolling`] is the newest state of a ball that rolls or slides. Both are plain values, so
 //! that a ring can carry them to an audio callback; a [`Timeline`] says at which frame. A [`Voice`]
 //! is an onset that sounds, a [`RollingVoice`] a ball on the move: synthesis from the table in
-//! [`parameters`], or a recording of a [`Bank`]. The [`Mixer`] makes two channels of them; a file is
-//! mixed from a [`Script`].
+//! [`parameters`], or a recording of a [`Bank`]. The [`Mixer`] makes two channels of them; a file
+//! is mixed from a [`Script`].
 
 mod bank;
 mod chance;
