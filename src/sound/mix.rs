@@ -5,10 +5,9 @@
 //! [`Mixer::new`] allocates, nothing waits, and nothing that it is told, numbers that are none
 //! included, makes it panic or say anything but numbers from -1 to 1.
 //!
-//! Parts in the order of the way of a sound: `slot` one sound and its ways to
-//! the ears, `pool` who has to go when there is no room, `moving` balls that roll, `head` and `path`
-//! what the ways are, `line` sound under way, `room` and `reverb` what the walls send back,
-//! `limiter` the end.
+//! Parts in the order of the way of a sound: `slot` one sound and its ways to the ears, `pool` who
+//! has to go when there is no room, `moving` balls that roll, `head` and `path` what the ways are,
+//! `line` sound under way, `room` and `reverb` what the walls send back, `limiter` the end.
 
 mod clean;
 mod head;

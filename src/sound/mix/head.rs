@@ -25,7 +25,8 @@ pub struct Arrival {
 
 /// What the left and the right ear get of a source.
 ///
-/// A source mirrored at the median plane gives the same numbers, bit for bit, with the ears swapped.
+/// A source mirrored at the median plane gives the same numbers, bit for bit, with the ears
+/// swapped.
 pub fn arrivals(listener: &Listener, mode: Mode, source_m: Vec3) -> [Arrival; 2] {
     let to_source = source_m - listener.position_m;
     let distance_m = to_source.length().max(HEAD_M);
