@@ -73,8 +73,8 @@ pub enum Reason {
 
 /// The bank of a folder, for a stream of `rate_hz`, and what was refused.
 ///
-/// Reads what ends in `.wav` and is named `CLASS_vSPEED_VARIANT.wav`, in the order of the names; other
-/// files and folders in it are left alone. Blocks as long as the disk does: not for the audio
+/// Reads what ends in `.wav` and is named `CLASS_vSPEED_VARIANT.wav`, in the order of the names;
+/// other files and folders in it are left alone. Blocks as long as the disk does: not for the audio
 /// callback.
 pub fn read_folder(folder: &Path, rate_hz: u32) -> (Bank, Vec<Refused>) {
     let is_wav = |name: &String| name.to_ascii_lowercase().ends_with(".wav");

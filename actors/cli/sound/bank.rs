@@ -14,11 +14,12 @@ const EXAMPLE: &str = "\
 Each file is named CLASS_vSPEED_VARIANT.wav: ball_click_v2_3.wav is the third click of two balls
 that meet at 2 m/s. It has one channel of 32-bit floats; 124 dB SPL at 1 m are 3 dB below 1.0.
 
-A folder of recordings of your own with such names is used in place of the synthesis by a scene that
-says recordings = \"FOLDER\" in [sound]. They may be WAV files of any format, rate and level, with one
-channel or two: they are brought to the level of the synthesis at the speed that the name says, and
-a hit at another speed plays the nearest of its class. Classes without a recording are synthesised.
-Rolling, sliding and the room always are; this command writes them into the folder `lasting`.
+A folder of recordings of your own with such names is used in place of the synthesis by a scene
+that says recordings = \"FOLDER\" in [sound]. They may be WAV files of any format, rate and level,
+with one channel or two: they are brought to the level of the synthesis at the speed that the name
+says, and a hit at another speed plays the nearest of its class. Classes without a recording are
+synthesised. Rolling, sliding and the room always are; this command writes them into the folder
+`lasting`.
 
 Examples:
   hapticbillard sound bank --out sounds
