@@ -24,8 +24,8 @@ pub struct Stream {
 /// As long as game and stream run at one pace, all moments are late by the same lead, so that two
 /// onsets are as far apart as physics has them, to the frame. The lead is a period of the stream
 /// and [`MARGIN_S`]: whatever is told before the callback's next turn comes in time. When the game
-/// has stood still, lagged, or run ahead, the lead is set anew; nothing is ever put into the past, and
-/// nothing before what was told already.
+/// has stood still, lagged, or run ahead, the lead is set anew; nothing is ever put into the past,
+/// and nothing before what was told already.
 #[derive(Debug, Clone)]
 pub struct Timeline {
     frames_per_s: f64,

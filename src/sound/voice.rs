@@ -105,8 +105,8 @@ impl Voice {
     /// Begins the sound of `onset` at the rate of a stream [Hz]: a recording of `bank`, or, where
     /// it has none, the synthesis.
     ///
-    /// Whatever is told, every sample is finite. What has no finite speed, and an impact that is too
-    /// slow to be heard, is over at once.
+    /// Whatever is told, every sample is finite. What has no finite speed, and an impact that is
+    /// too slow to be heard, is over at once.
     pub fn begin(onset: &Onset, bank: &Bank, rate_hz: f32) -> Voice {
         let rate_hz = usable_rate(rate_hz);
         match bank.pick(onset) {
