@@ -25,6 +25,8 @@ mod validate;
 
 mod haptic;
 
+mod sound;
+
 mod report;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
@@ -73,6 +75,7 @@ enum Command {
     Rules(rules::RulesArgs),
     Validate(validate::ValidateArgs),
     Haptic(haptic::HapticArgs),
+    Sound(sound::SoundArgs),
     Report(report::ReportArgs),
 }
 
@@ -129,6 +132,7 @@ pub fn run() -> ExitCode {
         Command::Rules(args) => rules::run(&args, &mut out),
         Command::Validate(args) => validate::run(&args, &mut out),
         Command::Haptic(args) => haptic::run(&args, &mut out),
+        Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {

@@ -77,6 +77,9 @@ pub enum Error {
     /// A haptic servo cannot run.
     #[error(transparent)]
     Servo(#[from] crate::haptic::NoServo),
+    /// Sound is not there.
+    #[error(transparent)]
+    Sound(#[from] crate::sound::NoSound),
     /// A simulation cannot begin or go on.
     #[error(transparent)]
     Physics(#[from] PhysicsError),

@@ -7,7 +7,7 @@ use crate::error::Error;
 use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
 use hapticbillard::shipped;
 use std::fs::{self, File};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -16,6 +16,12 @@ pub const MESH_BYTES_MAX: u64 = 64 << 20;
 
 /// The text of the file at `path`, if it has at most `limit` bytes.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
+    let bytes = read_bytes(path, limit)?;
+    String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
+}
+
+/// What is in the file at `path`, if it has at most `limit` bytes.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Error> {
     let failed = |reason| Error::Read { path: path.to_path_buf(), reason };
     let file = File::open(path).map_err(failed)?;
     // A folder cannot be read, and a device may never end.
@@ -27,7 +33,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Error> {
     if bytes.len() as u64 > limit {
         return Err(Error::TooLarge { path: path.to_path_buf(), limit });
     }
-    String::from_utf8(bytes).map_err(|_| Error::NoText { path: path.to_path_buf() })
+    Ok(bytes)
 }
 
 /// Opens a file that is read line by line, however long it is.
@@ -43,6 +49,14 @@ pub fn open_lines(path: &Path) -> Result<File, Error> {
 
 /// Writes a file whole: first under another name, then renamed.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    write_whole_by(path, |file| file.write_all(bytes))
+}
+
+/// The same for what is not in memory at once: `write` does it.
+pub fn write_whole_by(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+) -> Result<(), Error> {
     let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
     let name = path
         .file_name()
@@ -53,7 +67,11 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     fs::create_dir_all(folder).map_err(failed)?;
     let draft = folder.join(format!(".{name}.{}.part", std::process::id()));
     let written = File::create(&draft)
-        .and_then(|mut file| file.write_all(bytes).and_then(|()| file.sync_all()))
+        .and_then(|file| {
+            let mut file = BufWriter::new(file);
+            write(&mut file).and_then(|()| file.flush())?;
+            file.get_ref().sync_all()
+        })
         .and_then(|()| fs::rename(&draft, path));
     written.map_err(|reason| {
         // Best effort: the draft is of no use, and the first error is the one to report.

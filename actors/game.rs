@@ -6,13 +6,15 @@ use crate::files::{LineWriter, LoadedScene};
 use crate::haptic;
 use crate::pacer::StopFlag;
 use crate::runtime::{self, InputPort};
+use crate::sound;
 use crate::stopwatch::{Stopwatch, Timed};
 use hapticbillard::cast::Cast;
 use hapticbillard::ids::GameKind;
 use hapticbillard::lockstep;
-use hapticbillard::physics::Simulation;
+use hapticbillard::physics::{Simulation, Snapshot};
 use hapticbillard::replay::{self, Header, Line, RecordedInput, Recording};
 use hapticbillard::scene::{Overrides, Scene};
+use hapticbillard::sound::Foley;
 use hapticbillard::table::Table;
 use hapticbillard::tally::{Scorer, Tally};
 use hapticbillard::tick::{Finished, FrameSource, Participant};
@@ -133,6 +135,27 @@ impl Stage {
     pub fn haptic(&self) -> Result<Option<haptic::Plan>, Error> {
         let balls = self.scene.build_balls(&self.table)?;
         Ok(haptic::plan(&self.scene, self.folder.as_deref(), &self.table, &balls)?)
+    }
+
+    /// What the scene asks to be heard, if anything, in a game that runs at `pace` seconds a
+    /// second. `first` is the world before the first tick.
+    ///
+    /// # Errors
+    /// Balls that do not fit the table, recordings outside of the scene's folder.
+    pub fn sound(&self, first: Arc<Snapshot>, pace: f64) -> Result<Option<sound::Plan>, Error> {
+        let foley = self.foley(first.clone())?;
+        Ok(sound::plan(&self.scene, self.folder.as_deref(), foley, first, pace)?)
+    }
+
+    /// What makes sounds of this game's facts. `first` is the world before the first one.
+    ///
+    /// # Errors
+    /// Balls that do not fit the table.
+    pub fn foley(&self, first: Arc<Snapshot>) -> Result<Foley, Error> {
+        let balls = self.scene.build_balls(&self.table)?;
+        let radii = balls.iter().map(|(ball, _)| (ball.id, ball.radius_m));
+        let gravity_m_s2 = self.scene.physics.gravity_m_s2;
+        Ok(Foley::new(radii, gravity_m_s2, self.scene.about.seed, first))
     }
 
     /// The cores of this game.

@@ -40,7 +40,7 @@ pub use seat::{Held, Lay, Plan, Seat, Started};
 pub use stylus::Stylus;
 pub use telemetry::{Telemetry, Written};
 pub use thread::{NoServo, ServoThread};
-pub use timing::{Histogram, OVERRUN_NS, Timing};
+pub use timing::{OVERRUN_NS, Timing};
 pub use turns::{Call, Called, Explain, Scheduler, Turns};
 
 use glam::DVec3;

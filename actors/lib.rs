@@ -10,6 +10,8 @@ pub mod files;
 
 pub mod cpu_time;
 
+pub mod histogram;
+
 pub mod batch;
 
 pub mod kept;
@@ -27,6 +29,8 @@ pub mod ai;
 pub mod input;
 
 pub mod haptic;
+
+pub mod sound;
 
 pub mod observer;
 

@@ -15,27 +15,33 @@ pub struct Physics {
     simulation: Simulation,
     /// The newest state of the world, for whoever draws it: a stream, so it goes through a slot.
     world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// The same for whoever listens.
+    heard: Option<triple_buffer::Input<Arc<Snapshot>>>,
     /// The same for a hand.
     felt: Option<WorldPort>,
 }
 
 impl Physics {
-    /// Joins the simulation with the slots for its picture, if somebody draws one, and for a hand,
-    /// if somebody feels it.
+    /// Joins the simulation with the slots for its picture, if somebody draws one, for its sound,
+    /// if somebody listens, and for a hand, if somebody feels it.
     pub fn new(
         simulation: Simulation,
         world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+        heard: Option<triple_buffer::Input<Arc<Snapshot>>>,
         mut felt: Option<WorldPort>,
     ) -> Self {
         if let Some(felt) = &mut felt {
             felt.show(&simulation.snapshot(simulation.now_s()));
         }
-        Physics { simulation, world, felt }
+        Physics { simulation, world, heard, felt }
     }
 
     fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
-        if let (Some(world), Ok(advanced)) = (&mut self.world, &moved) {
-            world.write(advanced.table.clone());
+        let slots = [&mut self.world, &mut self.heard];
+        if let Ok(advanced) = &moved {
+            for slot in slots.into_iter().flatten() {
+                slot.write(advanced.table.clone());
+            }
         }
         if let (Some(felt), Ok(advanced)) = (&mut self.felt, &moved) {
             felt.show(&advanced.table);

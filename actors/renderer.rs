@@ -6,6 +6,8 @@
 
 mod felt;
 
+mod heard;
+
 mod hud;
 
 mod materials;
@@ -23,6 +25,7 @@ mod textures;
 mod window;
 
 pub use felt::FeltSetup;
+pub use heard::HeardSetup;
 pub use offscreen::pixels;
 pub use textures::number_layer;
 pub use window::{NoWindow, Ports, WindowSetup, show};

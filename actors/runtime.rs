@@ -16,6 +16,7 @@ use crate::participant::{self, Answer, Mail, Seat, door, kept_door};
 use crate::physics::Physics;
 use crate::recorder::{Keeper, Open, Recorder};
 use crate::rules::Rules;
+use crate::sound;
 use hapticbillard::ai::Player;
 use hapticbillard::cast::Cast;
 use hapticbillard::events::Health;
@@ -55,6 +56,8 @@ pub struct Setup {
     pub sinks: Vec<Sink>,
     /// Where the newest state of the world goes, for a picture.
     pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// What is heard. A game goes on without it; whoever plays is told.
+    pub sound: Option<Heard>,
     /// What is felt, and at which device. A game goes on without it; whoever plays is told.
     pub haptic: Option<Felt>,
     /// Physics runs on a thread of its own.
@@ -77,6 +80,14 @@ pub enum InputPort {
     Hand(Box<dyn Hand>),
 }
 
+/// Sound that runs and the way of the balls to it.
+pub struct Heard {
+    /// The line to the device. It ends with the game.
+    pub seat: Arc<sound::Seat>,
+    /// The way of the balls.
+    pub world: triple_buffer::Input<Arc<Snapshot>>,
+}
+
 /// A servo that runs and the way of the balls to it.
 pub struct Felt {
     /// The servo. It ends with the game if nobody else holds it.
@@ -85,7 +96,7 @@ pub struct Felt {
     pub world: haptic::WorldPort,
 }
 
-/// News from the servo's control that wait at most.
+/// News from the controls of servo and sound that wait at most.
 const NEWS: usize = 64;
 
 impl Setup {
@@ -102,6 +113,7 @@ impl Setup {
             observers: Vec::new(),
             sinks: Vec::new(),
             world: None,
+            sound: None,
             haptic: None,
             physics_thread: false,
             workers: 1,
@@ -201,6 +213,13 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     };
 
     let mut sinks = setup.sinks;
+    let heard = setup.sound.map(|Heard { seat, world }| {
+        sinks.push(seat.sink());
+        let crew = crew.clone();
+        let joins: sound::Joins = Box::new(move |control| crew.tell(sound::SOUND, control));
+        (sound::keep(seat, tell.clone(), joins), world)
+    });
+    let (sound_keeper, heard_world) = heard.unzip();
     let felt = setup.haptic.map(|Felt { seat, world }| {
         sinks.push(seat.sink());
         let crew = crew.clone();
@@ -213,7 +232,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
     crew.tell("physics", &physics_ref);
-    let body = Physics::new(simulation, setup.world, felt_world);
+    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
     } else {
@@ -252,6 +271,9 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     stop(conductor).await;
     stop(physics_ref).await;
     stop(events).await;
+    if let Some(keeper) = sound_keeper {
+        keeper.end().await;
+    }
     if let Some(keeper) = keeper {
         keeper.end().await;
     }

@@ -128,7 +128,7 @@ impl<'a> Lockstep<'a> {
     }
 
     /// The visible world after the last tick.
-    pub fn table(&self) -> &Snapshot {
+    pub fn table(&self) -> &Arc<Snapshot> {
         &self.last.table
     }
 

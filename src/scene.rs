@@ -66,6 +66,8 @@ pub struct Scene {
     pub camera: Option<CameraSection>,
     /// `[renderer]`
     pub renderer: Option<RendererSection>,
+    /// `[sound]`
+    pub sound: Option<SoundSection>,
     /// `[haptic]`
     pub haptic: Option<HapticSection>,
     /// `[input]`
@@ -319,6 +321,39 @@ pub struct RendererSection {
     pub height: u32,
     /// Fills the whole screen.
     pub fullscreen: bool,
+}
+
+/// `[sound]`: what happens is heard.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoundSection {
+    /// Name of the output; none: the system's own choice.
+    pub device: Option<String>,
+    /// Factor of the whole, 0 to 4.
+    pub volume: f64,
+    /// What the two channels are played by.
+    pub mode: SoundMode,
+    /// The walls of a room answer.
+    pub room: bool,
+    /// A folder of recordings that stand in for what is synthesised, seen from the scene's folder.
+    pub recordings: Option<String>,
+}
+
+/// What the two channels are played by.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+pub enum SoundMode {
+    /// Headphones: one channel an ear.
+    #[default]
+    Headphones,
+    /// Two loudspeakers in front of the player.
+    Loudspeakers,
+}
+
+impl SoundMode {
+    /// The names in a scene.
+    pub const WORDS: [(&[&str], SoundMode); 2] = [
+        (&["headphones"], SoundMode::Headphones),
+        (&["loudspeakers", "speakers"], SoundMode::Loudspeakers),
+    ];
 }
 
 /// `[haptic]`: forces are felt at a device.

@@ -124,7 +124,7 @@ pub fn run(args: &ReplayArgs, out: &mut dyn Write) -> Result<Status, Error> {
 }
 
 /// Reads a recording, or says what is wrong with it.
-fn read_recording(path: &Path) -> Result<Recording, Error> {
+pub fn read_recording(path: &Path) -> Result<Recording, Error> {
     let text = read_text(path, SIZE_MAX as u64)?;
     Recording::parse(&text).map_err(|error| Error::Recording { path: path.to_path_buf(), error })
 }

@@ -1,6 +1,7 @@
 //! The window: its own loop on the main thread, the game beside it on another.
 
 use super::felt::{FeltScreen, FeltSetup};
+use super::heard::{HeardScreen, HeardSetup};
 use super::hud;
 use super::outbox::Outbox;
 use super::pointer::Pointer;
@@ -70,6 +71,8 @@ pub struct WindowSetup {
     pub stop: StopFlag,
     /// The haptic device; none where a scene has none.
     pub felt: Option<FeltSetup>,
+    /// Sound; none where a scene has none.
+    pub heard: Option<HeardSetup>,
 }
 
 /// The game's ends of what joins it with its window.
@@ -97,6 +100,7 @@ struct Screen {
     radii: Radii,
     table: Arc<Table>,
     felt: Option<FeltScreen>,
+    heard: Option<HeardScreen>,
 }
 
 /// The game is over: its thread has nothing more to say.
@@ -144,6 +148,7 @@ where
         radii: setup.radii.clone(),
         table: setup.table.clone(),
         felt: setup.felt.take().map(FeltScreen::new),
+        heard: setup.heard.take().map(HeardScreen::new),
     };
 
     let ended = events.create_proxy();
@@ -228,6 +233,15 @@ struct Desk {
 impl Screen {
     /// What is drawn and written at `now_s`.
     fn seen(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+        let (list, mut written) = self.drawn(view, now_s);
+        if let Some(heard) = &mut self.heard {
+            heard.listen_at(&list.camera);
+            heard.write(&mut written, &self.words, now_s);
+        }
+        (list, written)
+    }
+
+    fn drawn(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
         let (world, radii) = (self.playhead.shown(now_s), &self.radii);
         let Some(felt) = &mut self.felt else {
             let written = Hud::new(&self.board, view, &self.texts, &self.words);
@@ -367,6 +381,12 @@ impl Desk {
         }
         if down {
             self.held.push(key);
+            let now_s = self.start.elapsed().as_secs_f64();
+            if let Some(heard) = &mut self.screen.heard
+                && heard.turn(key, now_s)
+            {
+                return;
+            }
         } else {
             self.held.retain(|held| *held != key);
         }
@@ -475,6 +495,7 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::C => Key::Letter('c'),
         Code::F => Key::Letter('f'),
         Code::H => Key::Letter('h'),
+        Code::M => Key::Letter('m'),
         Code::O => Key::Letter('o'),
         Code::P => Key::Letter('p'),
         Code::Q => Key::Letter('q'),
@@ -483,6 +504,8 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::T => Key::Letter('t'),
         Code::U => Key::Letter('u'),
         Code::V => Key::Letter('v'),
+        Code::Plus | Code::Equals | Code::NumpadAdd => Key::Letter('+'),
+        Code::Minus | Code::NumpadSubtract => Key::Letter('-'),
         _ => return None,
     })
 }

@@ -49,6 +49,9 @@ pub enum FactKind {
         /// Who struck, if it is not the player at the table.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         player: Option<PlayerId>,
+        /// The tip slipped on the ball.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        miscue: bool,
         /// Point of contact [m].
         #[serde(default)]
         position_m: DVec3,

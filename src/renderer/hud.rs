@@ -124,6 +124,9 @@ impl Hud {
         if let Some(reason) = &board.unfelt {
             hud.message.push(words.fill("haptic", "reason", reason));
         }
+        if let Some(reason) = &board.unheard {
+            hud.message.push(words.fill("no_sound", "reason", reason));
+        }
         if board.is_without_stylus {
             hud.message.push(words.get("stylus_gone"));
         }

@@ -35,6 +35,8 @@ pub struct Scoreboard {
     pub unfelt: Option<String>,
     /// The haptic device is gone, and the mouse strikes.
     pub is_without_stylus: bool,
+    /// Why nothing is heard, until the first stroke.
+    pub unheard: Option<String>,
     /// What operating system and device have refused, until the first stroke.
     pub refused: Vec<Refused>,
 }
@@ -103,6 +105,7 @@ impl Scoreboard {
                     // What was said about the shot before is old now.
                     self.verdict = None;
                     self.refused.clear();
+                    self.unheard = None;
                 }
                 FactKind::BallPocketed { ball, .. } | FactKind::BallOffTable { ball } => {
                     self.on_table.retain(|other| *other != ball);
@@ -124,12 +127,14 @@ impl Scoreboard {
             Health::ActorFailed { actor, reason } => match actor.as_str() {
                 "recorder" => self.is_unrecorded = true,
                 "haptic" => self.unfelt = Some(reason.clone()),
+                "sound" => self.unheard = Some(reason.clone()),
                 STYLUS => self.is_without_stylus = true,
                 _ => {}
             },
             Health::ActorRestarted { actor } => match actor.as_str() {
                 "recorder" => self.is_unrecorded = false,
                 "haptic" => self.unfelt = None,
+                "sound" => self.unheard = None,
                 STYLUS => self.is_without_stylus = false,
                 _ => {}
             },

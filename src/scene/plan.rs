@@ -31,6 +31,7 @@ impl Scene {
     pub fn plan(&self) -> Vec<PlanLine> {
         let mut plan = Plan { lines: Vec::new() };
         self.actors_of_plan(&mut plan);
+        self.sound_of_plan(&mut plan);
         self.haptic_of_plan(&mut plan);
         self.terms_of_plan(&mut plan);
         // Stable: within a kind the order of the calls stays.
@@ -82,6 +83,23 @@ impl Scene {
                 plan.add(PlanKind::Actor, "renderer", &detail);
             }
             None => plan.left_out("renderer", "the scene has no [renderer]"),
+        }
+    }
+
+    /// Without `[sound]` no thread exists and no audio library is asked for anything; without a
+    /// window nobody listens.
+    fn sound_of_plan(&self, plan: &mut Plan) {
+        match &self.sound {
+            Some(sound) if self.renderer.is_some() => {
+                let device = sound.device.as_deref().unwrap_or("the system's default");
+                let detail = format!(
+                    "what happens, through {device}; a task, a thread that keeps the device, and \
+                     the mixer in the audio callback"
+                );
+                plan.add(PlanKind::Actor, "sound", &detail);
+            }
+            Some(_) => plan.left_out("sound", "without [renderer] nobody listens"),
+            None => plan.left_out("sound", "the scene has no [sound]"),
         }
     }
 

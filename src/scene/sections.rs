@@ -10,9 +10,9 @@ use glam::DQuat;
 use toml::de::DeTable;
 
 /// The sections in the order in which a reader expects them.
-const SECTIONS: [&str; 16] = [
+const SECTIONS: [&str; 17] = [
     "scene", "physics", "table", "mesh", "plane", "box", "balls", "ball", "cue", "rules", "player",
-    "camera", "renderer", "haptic", "input", "actors",
+    "camera", "renderer", "sound", "haptic", "input", "actors",
 ];
 
 const PLACE: Limits = Limits { low: -1000.0, high: 1000.0, unit: "(m)", example: "0.0" };
@@ -51,6 +51,7 @@ pub(super) fn parse(file_name: &str, text: &str) -> Result<Scene, SceneError> {
         players: each(&root, "player", 2, player)?,
         camera: empty(&root, "camera")?.then_some(CameraSection),
         renderer: root.section("renderer")?.map(|section| renderer(&section)).transpose()?,
+        sound: root.section("sound")?.map(|section| sound(&section)).transpose()?,
         haptic: root.section("haptic")?.map(|section| haptic(&section)).transpose()?,
         input: root.section("input")?.map(|section| input(&section)).transpose()?,
         actors: root.section("actors")?.map(|section| actors(&section)).transpose()?,
@@ -476,6 +477,26 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
         width: pixels("width", 1280)?,
         height: pixels("height", 720)?,
         fullscreen: section.switch("fullscreen")?.unwrap_or(false),
+    })
+}
+
+fn sound(section: &Section<'_>) -> Result<SoundSection, SceneError> {
+    section.allow(&["device", "volume", "mode", "room", "recordings"])?;
+    let volume = Limits { low: 0.0, high: 4.0, unit: "(1 is as in the world)", example: "1.0" };
+    let device = section.text("device", "default")?;
+    let recordings = section.text("recordings", "sounds")?;
+    for (key, text) in [("device", &device), ("recordings", &recordings)] {
+        if text.as_deref() == Some("") {
+            let fix = format!("leave {key} out, or name one");
+            return Err(section.error(key, "names nothing", &fix));
+        }
+    }
+    Ok(SoundSection {
+        device: device.filter(|name| name != "default"),
+        volume: section.number("volume", volume)?.unwrap_or(1.0),
+        mode: section.choice("mode", &SoundMode::WORDS)?.unwrap_or_default(),
+        room: section.switch("room")?.unwrap_or(true),
+        recordings,
     })
 }
 

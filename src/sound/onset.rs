@@ -28,6 +28,42 @@ pub enum SoundClass {
     Chalk,
 }
 
+impl SoundClass {
+    /// All classes.
+    pub const ALL: [SoundClass; 9] = [
+        SoundClass::BallClick,
+        SoundClass::CueStrike,
+        SoundClass::Miscue,
+        SoundClass::Cushion,
+        SoundClass::Pocket,
+        SoundClass::Gully,
+        SoundClass::Landing,
+        SoundClass::Floor,
+        SoundClass::Chalk,
+    ];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            SoundClass::BallClick => "ball_click",
+            SoundClass::CueStrike => "cue_strike",
+            SoundClass::Miscue => "miscue",
+            SoundClass::Cushion => "cushion",
+            SoundClass::Pocket => "pocket",
+            SoundClass::Gully => "gully",
+            SoundClass::Landing => "landing",
+            SoundClass::Floor => "floor",
+            SoundClass::Chalk => "chalk",
+        }
+    }
+
+    /// Whether the speed decides that it is heard at all: a ball falls into a pocket and runs
+    /// through the gully however slow it was, and chalk is no impact.
+    pub fn is_impact(self) -> bool {
+        !matches!(self, SoundClass::Pocket | SoundClass::Gully | SoundClass::Chalk)
+    }
+}
+
 /// A sound that begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Onset {

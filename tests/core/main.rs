@@ -48,6 +48,8 @@ mod scene;
 mod scene_built;
 /// Snooker: its spots, what can be seen, its table, and what follows from choices.
 mod snooker;
+/// What is heard.
+mod sound;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
 /// What the clock leaves out and what it must not.

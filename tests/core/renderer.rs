@@ -175,6 +175,7 @@ fn struck() -> Event {
         push: false,
         moving: false,
         player: None,
+        miscue: false,
         position_m: DVec3::ZERO,
         normal_speed_m_s: 1.0,
     })

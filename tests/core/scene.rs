@@ -56,25 +56,25 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     after_head(
         "[phsyics]\n",
         "4: phsyics: this build knows the sections scene, physics, table, mesh, plane, box, \
-         balls, ball, cue, rules, player, camera, renderer, haptic, input, actors; \
+         balls, ball, cue, rules, player, camera, renderer, sound, haptic, input, actors; \
          did you mean physics?",
     );
     after_head(
-        "[sound]\n",
-        "4: sound: this build knows the sections scene, physics, table, mesh, plane, box, balls, \
-         ball, cue, rules, player, camera, renderer, haptic, input, actors; \
+        "[chalk]\n",
+        "4: chalk: this build knows the sections scene, physics, table, mesh, plane, box, balls, \
+         ball, cue, rules, player, camera, renderer, sound, haptic, input, actors; \
          remove this section",
     );
     whole(
         "title = 3\n[scene]\nname = \"x\"\n[physics]\n",
         "1: title = 3: this build knows the sections scene, physics, table, mesh, plane, box, \
-         balls, ball, cue, rules, player, camera, renderer, haptic, input, actors; \
+         balls, ball, cue, rules, player, camera, renderer, sound, haptic, input, actors; \
          remove this section",
     );
     after_head(
         "[banana]\n",
         "4: banana: this build knows the sections scene, physics, table, mesh, plane, box, \
-         balls, ball, cue, rules, player, camera, renderer, haptic, input, actors; \
+         balls, ball, cue, rules, player, camera, renderer, sound, haptic, input, actors; \
          remove this section",
     );
     whole(

@@ -31,7 +31,7 @@ const LAYERS: [&[&str]; 16] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 26] = [
+const ACTORS: [(&str, Option<&str>); 28] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -42,6 +42,7 @@ const ACTORS: [(&str, Option<&str>); 26] = [
     ("recorder", Some("replay")),
     ("renderer", Some("renderer")),
     ("rules", Some("rules")),
+    ("sound", Some("sound")),
     ("participant", Some("tick")),
     ("batch", None),
     ("build", None),
@@ -52,6 +53,7 @@ const ACTORS: [(&str, Option<&str>); 26] = [
     ("event_log", None),
     ("game", None),
     ("files", None),
+    ("histogram", None),
     ("kept", None),
     ("lib", None),
     ("main", None),

@@ -73,8 +73,14 @@ fn every_command_teaches_with_an_example() {
         let example = format!("Examples:\n  hapticbillard haptic {command}");
         assert!(text(&help.stdout).contains(&example), "{help:?}");
     }
+    for command in ["render", "bank", "devices"] {
+        let help = program(&["sound", command, "--help"]);
+        let example = format!("  hapticbillard sound {command}");
+        assert!(text(&help.stdout).contains(&example), "{help:?}");
+    }
     let help = program(&["--help"]);
     assert!(text(&help.stdout).contains("haptic"));
+    assert!(text(&help.stdout).contains("sound"));
     assert!(commands.iter().all(|command| text(&help.stdout).contains(command)));
 }
 

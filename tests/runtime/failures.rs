@@ -14,20 +14,23 @@
 //! | device lost otherwise | the mouse at once | `input::stylus` of the core tests |
 //! | device lost, or says NaN | no force at that tick | `contact::a_device_that_is_lost_…` |
 //! | the world stalls | the force fades | `contact::a_world_that_stalls_…` |
+//! | Sound | another one, the game is the same | `sound_that_is_killed_…` |
+//! | sound device | the game goes on, sound returns | `a_speaker_that_is_unplugged_…` |
+//! | no sound device | silence, the player is told once | `without_a_speaker_…` |
 //! | rights | the player is told, with the remedy | `what_is_refused_…`, `realtime_kit` |
-//!
-//! There is no sound yet that could fail.
 
 use super::cli::folder;
 use super::hearing::Hears;
-use super::supervision::{draft, recorded, run, undisturbed, verify};
+use super::sound::speaker::Speaker;
+use super::sound::{heard_through, peak};
+use super::supervision::{draft, recorded, run, stage, undisturbed, verify};
 use hapticbillard::events::{Event, Health, Source, Topic, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::input::HumanView;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{Hud, Scoreboard, Words};
 use hapticbillard::rules::{Language, Texts};
-use hapticbillard::tick::{Delivered, Frame, FrameSource, Inflow, Outcome, Pace, Participant};
+use hapticbillard::tick::{Delivered, End, Frame, FrameSource, Inflow, Outcome, Pace, Participant};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::event_manager::Sink;
 use hapticbillard_actors::files::load_scene;
@@ -38,6 +41,7 @@ use hapticbillard_actors::recorder::Recorder;
 use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
 
 /// Hears every event of a topic, and with every n-th kills whoever bears a name.
 struct Killer {
@@ -227,5 +231,91 @@ fn what_is_refused_stands_in_the_players_window_with_what_would_help() {
         let hud = Hud::new(&board, &HumanView::default(), &texts, &words);
         let line = hud.message.iter().find(|line| line.contains("core 1023")).unwrap();
         assert!(line.contains("name one in [haptic]"), "{line}");
+    }
+}
+
+/// A recorded game with sound, fast but on a clock, and who hears what the player is told.
+fn sounding(name: &str, speaker: &Speaker) -> (Setup, Hears, std::path::PathBuf) {
+    let file = folder(name).join("game.jsonl");
+    let listener = Hears::of(Topic::Health);
+    let setup = Setup {
+        sound: Some(heard_through(&stage(), speaker)),
+        observers: vec![Box::new(listener.clone())],
+        tempo: Tempo::RealTime(20.0),
+        limit: Tick(60_000),
+        workers: 2,
+        ..recorded(&file, Box::new(Recorder::start))
+    };
+    (setup, listener, file)
+}
+
+#[test]
+fn sound_that_is_killed_is_replaced_and_heard_again_and_the_game_is_the_same() {
+    let quiet = Speaker::new();
+    quiet.unplug();
+    let (setup, _, file) = sounding("sound_lives", &quiet);
+    let reference = run(setup).unwrap();
+    let whole = std::fs::read_to_string(file).unwrap();
+
+    let speaker = Speaker::new();
+    let running = speaker.run();
+    let (setup, listener, file) = sounding("sound_dies", &speaker);
+    let (setup, killed) = with_killer("sound", Topic::CueBallStruck, 4, setup);
+    let finished = run(setup).unwrap();
+    drop(running);
+    assert_eq!((finished.end, finished.hash), (reference.end, reference.hash));
+    assert_eq!(std::fs::read_to_string(file).unwrap(), whole);
+    let (killed, told) = (killed.load(Ordering::SeqCst), told(&listener, "sound"));
+    assert!(killed > 0 && told.len() > 1, "{killed} {told:?}");
+    assert!(told.chunks(2).all(|pair| [false, true].starts_with(pair)), "{told:?}");
+    // The line outlives its controls.
+    assert_eq!(speaker.opened(), 1);
+    let heard = speaker.heard();
+    let half = heard.len() / 2;
+    assert!(peak(&heard[..half]) > 1e-3 && peak(&heard[half..]) > 1e-3);
+}
+
+#[test]
+fn a_speaker_that_is_unplugged_in_a_game_stops_nothing_and_sounds_again_when_it_is_back() {
+    let speaker = Speaker::new();
+    let (setup, listener, _) = sounding("unplugged", &speaker);
+    speaker.wait_until_open();
+    let running = speaker.run();
+    let hand = speaker.clone();
+    let hand = std::thread::spawn(move || {
+        while peak(&hand.heard()) < 1e-3 {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        hand.unplug();
+        std::thread::sleep(Duration::from_millis(300));
+        hand.plug();
+        hand.wait_until_open();
+        hand.heard().len()
+    });
+    let finished = run(Setup { limit: Tick(100_000), ..setup }).unwrap();
+    let back = hand.join().unwrap();
+    drop(running);
+    assert_eq!((finished.end, finished.tick), (End::Limit, Tick(100_000)));
+    assert_eq!(told(&listener, "sound"), [false, true]);
+    assert_eq!(speaker.opened(), 2);
+    let heard = speaker.heard();
+    assert!(peak(&heard[..back]) > 1e-3 && peak(&heard[back..]) > 1e-3);
+}
+
+#[test]
+fn without_a_speaker_the_game_is_played_and_the_player_is_told_once() {
+    let speaker = Speaker::new();
+    speaker.unplug();
+    let (setup, listener, _) = sounding("no_speaker", &speaker);
+    run(Setup { limit: Tick(10_000), ..setup }).unwrap();
+    assert_eq!(told(&listener, "sound"), [false]);
+    let health = |event: &Event| matches!(event, Event::Health(_)).then(|| event.clone());
+    let [told] = &listener.heard(health)[..] else { panic!("more than once") };
+    let mut board = Scoreboard::default();
+    board.hear(told);
+    for language in [Language::English, Language::German] {
+        let (texts, words) = (Texts::new(language), Words::new(language));
+        let hud = Hud::new(&board, &HumanView::default(), &texts, &words);
+        assert!(hud.message.iter().any(|line| line.contains("it is unplugged")), "{hud:?}");
     }
 }

@@ -54,6 +54,11 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// Sound: the actor in front of a speaker of our own, and the system's real audio library.
+mod sound;
+/// Sound files: a player's recordings, and every class written.
+#[cfg(feature = "sound")]
+mod sound_files;
 /// The stub of the vendor's HD library.
 mod stub_hd;
 /// Who dies and what then.

@@ -111,7 +111,7 @@ fn a_recorder_that_dies_again_and_again_loses_not_a_byte_and_stops_no_game() {
         match starts {
             // Not every recorder that is started comes up.
             n if n % 5 == 4 => Err(full(path)),
-            n => Ok(frail(path, length, 20, endings[n % 4])),
+            n => Ok(frail(path, length, 18, endings[n % 4])),
         }
     });
     let setup = Setup { observers: vec![Box::new(listener.clone())], ..recorded(&file, open) };

@@ -15,9 +15,10 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{
-    Asked, Core, DeviceRecorder, Grant, Histogram, Obtained, Plan, Recorded, Seat, Started,
-    Telemetry, Timing, Watch, Written, allowed, open,
+    Asked, Core, DeviceRecorder, Grant, Obtained, Plan, Recorded, Seat, Started, Telemetry, Timing,
+    Watch, Written, allowed, open,
 };
+use hapticbillard_actors::histogram::Histogram;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::PathBuf;

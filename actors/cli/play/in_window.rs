@@ -4,6 +4,7 @@ use super::felt::{Watched, felt};
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{Human, HumanView, LedHuman, RawInput};
+use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::Radii;
 use hapticbillard::replay::{RecordedInput, Recording};
 use hapticbillard::rules::Language;
@@ -17,8 +18,9 @@ use hapticbillard_actors::haptic::{
 };
 use hapticbillard_actors::input::{LedHand, WindowHand};
 use hapticbillard_actors::pacer::{Tempo, describe};
-use hapticbillard_actors::renderer::{NoWindow, Ports, WindowSetup, show};
-use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
+use hapticbillard_actors::renderer::{HeardSetup, NoWindow, Ports, WindowSetup, show};
+use hapticbillard_actors::runtime::{self, Felt, Heard, InputPort, Setup};
+use hapticbillard_actors::sound;
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -100,12 +102,14 @@ fn shown(
         Some(Watched { plan, watch, shown, .. }) => (Some(plan), watch, Some(shown)),
         None => (None, Watch::default(), None),
     };
+    let first = Arc::new(cast.simulation.snapshot(0.0));
+    let (line, heard) = heard(stage, first.clone(), speed)?;
     let setup = WindowSetup {
         title: format!("HapticBillard: {}", stage.scene.about.name),
         size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
         fullscreen: renderer.is_some_and(|section| section.fullscreen),
         table: stage.table.clone(),
-        first: Arc::new(cast.simulation.snapshot(0.0)),
+        first,
         names: cast.names.clone(),
         game: stage.scene.rules.map(|rules| rules.game),
         speed,
@@ -113,6 +117,7 @@ fn shown(
         stop: stop.clone(),
         radii: radii.clone(),
         felt: shown,
+        heard,
     };
     let hand = cast.human.take().filter(|_| replay.is_none());
     let table = stage.table.clone();
@@ -166,6 +171,7 @@ fn shown(
             record,
             sinks: vec![sink],
             world: Some(world),
+            sound: line,
             haptic,
             physics_thread,
             workers: 2,
@@ -179,6 +185,26 @@ fn shown(
         log::info!("recorded {readings} readings of the haptic device, {lost} lost");
     }
     Ok(shown)
+}
+
+/// What the scene asks to be heard, and the window's end of it. Without it the game is played in
+/// silence.
+fn heard(
+    stage: &Stage,
+    first: Arc<Snapshot>,
+    pace: f64,
+) -> Result<(Option<Heard>, Option<HeardSetup>), Error> {
+    let Some(plan) = stage.sound(first, pace)? else { return Ok((None, None)) };
+    let knobs = plan.knobs.clone();
+    match sound::Seat::start(plan) {
+        Ok(sound::Started { seat, world, listener }) => {
+            Ok((Some(Heard { seat, world }), Some(HeardSetup { listener, knobs })))
+        }
+        Err(error) => {
+            log::warn!("{error}; the game is played without sound");
+            Ok((None, None))
+        }
+    }
 }
 
 /// The same plan, its device recorded where somebody wants that.

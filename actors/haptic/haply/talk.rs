@@ -3,7 +3,7 @@
 use super::line::Line;
 use super::{NoHaply, SILENCE_S};
 use crate::haptic::rights::{Asked, Core, obtain};
-use crate::haptic::timing::Histogram;
+use crate::histogram::Histogram;
 use hapticbillard::haptic::{DeviceSpec, DeviceState, DeviceStatus, Force, Inverse3};
 use hapticbillard::units::Seconds;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -239,6 +239,7 @@ impl EventDriven {
             push: self.is_pushed(at, index, velocity_after),
             moving,
             player: None,
+            miscue: !impact.sticks,
             position_m: point,
             normal_speed_m_s: approach,
         };

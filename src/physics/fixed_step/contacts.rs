@@ -462,6 +462,7 @@ impl FixedStep {
             push: self.is_pushed(index, tau),
             moving,
             player: None,
+            miscue: !impact.sticks,
             position_m: point,
             normal_speed_m_s: approach,
         };

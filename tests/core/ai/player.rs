@@ -145,6 +145,7 @@ impl Script {
                     push: false,
                     moving: false,
                     player: None,
+                    miscue: false,
                     position_m: stroke.contact,
                     normal_speed_m_s: stroke.speed_m_s,
                 });

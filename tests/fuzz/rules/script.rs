@@ -126,6 +126,7 @@ pub fn struck(ball: BallId) -> FactKind {
         push: false,
         moving: false,
         player: None,
+        miscue: false,
         position_m: Default::default(),
         normal_speed_m_s: 0.0,
     }

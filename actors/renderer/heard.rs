@@ -1,0 +1,60 @@
+//! Sound in the window: where the picture is seen from it is heard from, and keys turn the volume.
+
+use crate::sound::Knobs;
+use hapticbillard::input::{CameraPose, Key};
+use hapticbillard::renderer::{Hud, Words};
+use hapticbillard::sound::Listener;
+use std::sync::Arc;
+
+/// How long the volume stands in the window after it was turned [s].
+const SHOWN_S: f64 = 2.0;
+
+/// What a window has to do with sound.
+pub struct HeardSetup {
+    /// Where it is heard from.
+    pub listener: triple_buffer::Input<Listener>,
+    /// Volume and mute.
+    pub knobs: Arc<Knobs>,
+}
+
+/// The window's end.
+pub struct HeardScreen {
+    setup: HeardSetup,
+    turned_s: f64,
+}
+
+impl HeardScreen {
+    /// Before the first picture.
+    pub fn new(setup: HeardSetup) -> Self {
+        HeardScreen { setup, turned_s: f64::NEG_INFINITY }
+    }
+
+    /// The picture is taken from here.
+    pub fn listen_at(&mut self, camera: &CameraPose) {
+        let forward = (camera.target - camera.eye).as_vec3();
+        self.setup.listener.write(Listener::looking(camera.eye.as_vec3(), forward, glam::Vec3::Z));
+    }
+
+    /// A key goes down at `now_s` on the window's clock; says whether it is one for the volume.
+    pub fn turn(&mut self, key: Key, now_s: f64) -> bool {
+        match key {
+            Key::Letter('+') => self.setup.knobs.turn(true),
+            Key::Letter('-') => self.setup.knobs.turn(false),
+            Key::Letter('m') => self.setup.knobs.mute(),
+            _ => return false,
+        }
+        self.turned_s = now_s;
+        true
+    }
+
+    /// The volume, while it was turned just now; that it is off, as long as it is.
+    pub fn write(&self, written: &mut Hud, words: &Words, now_s: f64) {
+        let knobs = &self.setup.knobs;
+        if knobs.is_muted() {
+            written.message.push(words.get("muted"));
+        } else if now_s < self.turned_s + SHOWN_S {
+            let percent = format!("{:.0}", knobs.share() * 100.0);
+            written.message.push(words.fill("volume", "percent", &percent));
+        }
+    }
+}

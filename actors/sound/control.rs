@@ -1,0 +1,192 @@
+//! The actor itself.
+
+use super::SOUND;
+use super::callback::Due;
+use super::line::{News, Open};
+use super::seat::{Held, Ports, Seat};
+use hapticbillard::events::{Event, Health};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::sound::{Foley, Listener, Onset, Rolling, Stream, Timeline, Told};
+use hapticbillard::tick::Delivered;
+use kameo::prelude::*;
+use std::sync::Arc;
+
+/// What a callback is taken to mix before it was called for the first time [frames].
+const PERIOD_FIRST: u32 = 512;
+
+/// Tells a stream what happens, while it lives.
+#[derive(Actor)]
+pub struct Sound {
+    held: Held,
+    foley: Foley,
+    teller: Teller,
+    /// Not shown to the foley yet: facts that lie before it may still be on their way.
+    newest: Arc<Snapshot>,
+    is_lost: bool,
+    dropped: u64,
+}
+
+/// What a stream was told last.
+struct Teller {
+    timeline: Option<Timeline>,
+    pace: f64,
+    listener: Option<Listener>,
+    volume: Option<f32>,
+}
+
+impl Sound {
+    /// Takes hold of a line. None while somebody else does.
+    pub fn new(seat: &Arc<Seat>) -> Option<Self> {
+        let mut held = seat.hold()?;
+        let teller = Teller { timeline: None, pace: seat.pace(), listener: None, volume: None };
+        let (mut foley, mut newest) = (seat.foley(), Arc::default());
+        if let Some(ports) = held.ports() {
+            // What happened while nobody listened is not heard all at once.
+            ports.mail.try_iter().for_each(drop);
+            newest = ports.world.read().clone();
+            foley.see(&newest);
+        }
+        Some(Sound { held, foley, teller, newest, is_lost: false, dropped: 0 })
+    }
+}
+
+/// Pass on what has happened since the last time.
+pub struct Work;
+
+/// What the player should be told.
+#[derive(Debug, Clone, PartialEq, Reply)]
+pub struct Worked(pub Vec<Health>);
+
+impl Message<Work> for Sound {
+    type Reply = Worked;
+
+    async fn handle(&mut self, _: Work, _: &mut Context<Self, Worked>) -> Worked {
+        Worked(self.work())
+    }
+}
+
+impl Sound {
+    fn work(&mut self) -> Vec<Health> {
+        let knobs = self.held.seat().knobs().clone();
+        let mut news = Vec::new();
+        let Some(ports) = self.held.ports() else { return news };
+        while let Ok(told) = ports.news.try_recv() {
+            let (is_lost, health) = hear_line(ports, &mut self.teller, told, self.is_lost);
+            self.is_lost = is_lost;
+            news.extend(health);
+        }
+
+        // The world first: mail that comes behind it may be older, but none is missing that is.
+        let world = ports.world.read().clone();
+        let Ports { open, mail, listener, .. } = ports;
+        let mut stream = open.as_mut().map(|open| (open, &mut self.teller));
+        for delivered in mail.try_iter() {
+            if self.newest.time_s < delivered.table.time_s {
+                see(&mut self.foley, &self.newest, &mut stream);
+            }
+            hear(&mut self.foley, &delivered, &mut stream);
+            see(&mut self.foley, &delivered.table, &mut stream);
+        }
+        if self.newest.time_s < world.time_s {
+            see(&mut self.foley, &self.newest, &mut stream);
+            self.newest = world;
+        }
+        if let Some((open, teller)) = &mut stream {
+            teller.turn(open, *listener.read(), knobs.volume());
+            let dropped = open.counters.dropped();
+            if self.dropped != dropped {
+                self.dropped = dropped;
+                news.push(Health::QueueFull { queue: SOUND.into(), dropped });
+            }
+        }
+        news
+    }
+}
+
+type Way<'a> = Option<(&'a mut Open, &'a mut Teller)>;
+
+fn hear(foley: &mut Foley, delivered: &Delivered, stream: &mut Way<'_>) {
+    for stamped in delivered.events.iter() {
+        let Event::Fact(fact) = &stamped.event else { continue };
+        let onset = foley.hear(fact, Some(&delivered.table));
+        if let (Some(onset), Some((open, teller))) = (onset, &mut *stream) {
+            teller.begin(open, &onset);
+        }
+    }
+}
+
+fn see(foley: &mut Foley, snapshot: &Arc<Snapshot>, stream: &mut Way<'_>) {
+    let (onsets, rollings) = foley.see(snapshot);
+    let Some((open, teller)) = stream else { return };
+    onsets.iter().for_each(|onset| teller.begin(open, onset));
+    for rolling in rollings {
+        teller.roll(open, snapshot.time_s, rolling);
+    }
+}
+
+impl Teller {
+    fn timeline(&mut self, open: &Open) -> &mut Timeline {
+        let pace = self.pace;
+        self.timeline.get_or_insert_with(|| Timeline::new(f64::from(open.rate_hz), pace))
+    }
+
+    fn begin(&mut self, open: &mut Open, onset: &Onset) {
+        let at_frame = self.timeline(open).onset(onset.time_s, stream(open));
+        tell(open, (at_frame, Told::Start { at_frame, onset: *onset }));
+    }
+
+    fn roll(&mut self, open: &mut Open, time_s: f64, rolling: Rolling) {
+        let at_frame = self.timeline(open).state(time_s, stream(open));
+        tell(open, (at_frame, Told::Roll(rolling)));
+    }
+
+    /// Where it is heard from and how loud, if that has changed; it holds at once.
+    fn turn(&mut self, open: &mut Open, listener: Listener, volume: f32) {
+        if self.listener != Some(listener) {
+            self.listener = Some(listener);
+            tell(open, (0, Told::Listener(listener)));
+        }
+        if self.volume != Some(volume) {
+            self.volume = Some(volume);
+            tell(open, (0, Told::Volume(volume)));
+        }
+    }
+}
+
+fn stream(open: &Open) -> Stream {
+    let period = match open.counters.period() {
+        0 => PERIOD_FIRST,
+        period => period,
+    };
+    Stream { now: open.counters.frames(), period }
+}
+
+/// When the ring is full it is dropped: the stream stands still, or far more happens than can be
+/// heard.
+fn tell(open: &mut Open, due: Due) {
+    if open.tell.push(due).is_err() {
+        open.counters.note_dropped();
+    }
+}
+
+/// A stream is there, or no longer; says whether none is, and what the player is told.
+fn hear_line(
+    ports: &mut Ports,
+    teller: &mut Teller,
+    told: News,
+    was_lost: bool,
+) -> (bool, Option<Health>) {
+    *teller = Teller { timeline: None, pace: teller.pace, listener: None, volume: None };
+    match told {
+        News::Open(open) => {
+            log::info!("{SOUND}: plays through {} at {} Hz", open.device, open.rate_hz);
+            ports.open = Some(open);
+            (false, was_lost.then(|| Health::ActorRestarted { actor: SOUND.into() }))
+        }
+        News::Lost(reason) => {
+            log::warn!("{SOUND}: {reason}; the game goes on without it");
+            ports.open = None;
+            (true, Some(Health::ActorFailed { actor: SOUND.into(), reason }))
+        }
+    }
+}

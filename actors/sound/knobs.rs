@@ -1,0 +1,81 @@
+//! Volume and mute, turned by the window and looked at by the actor.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+/// How much a press of a key changes the volume, as a share of what the scene says.
+const STEP: f32 = 0.1;
+/// The loudest share, and the loudest that a mixer plays.
+const SHARE_MAX: f32 = 2.0;
+const VOLUME_MAX: f32 = 4.0;
+
+/// What a player can turn.
+#[derive(Debug)]
+pub struct Knobs {
+    /// What the scene says; 1 is as in the world.
+    scene: f32,
+    share: AtomicU32,
+    is_muted: AtomicBool,
+}
+
+impl Knobs {
+    /// For a scene with this volume.
+    pub fn new(scene: f32) -> Self {
+        let share = AtomicU32::new(1.0_f32.to_bits());
+        Knobs { scene, share, is_muted: AtomicBool::new(false) }
+    }
+
+    /// What is heard: 0 while it is muted.
+    pub fn volume(&self) -> f32 {
+        if self.is_muted() { 0.0 } else { (self.scene * self.share()).min(VOLUME_MAX) }
+    }
+
+    /// Whether it is muted.
+    pub fn is_muted(&self) -> bool {
+        self.is_muted.load(Ordering::Relaxed)
+    }
+
+    /// What is set, as a share of what the scene says.
+    pub fn share(&self) -> f32 {
+        f32::from_bits(self.share.load(Ordering::Relaxed))
+    }
+
+    /// A step louder, or softer; whoever turns it wants to hear it.
+    pub fn turn(&self, is_louder: bool) {
+        let step = if is_louder { STEP } else { -STEP };
+        // In whole steps, so that up and down lead back.
+        let share = ((self.share() + step) / STEP).round() * STEP;
+        self.share.store(share.clamp(0.0, SHARE_MAX).to_bits(), Ordering::Relaxed);
+        self.is_muted.store(false, Ordering::Relaxed);
+    }
+
+    /// Silent, or as before.
+    pub fn mute(&self) {
+        self.is_muted.fetch_xor(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn up_and_down_lead_back_and_mute_remembers() {
+        let knobs = Knobs::new(3.0);
+        knobs.turn(true);
+        knobs.turn(false);
+        assert_eq!(knobs.volume(), 3.0);
+        for _ in 0..30 {
+            knobs.turn(true);
+        }
+        assert_eq!((knobs.share(), knobs.volume()), (SHARE_MAX, VOLUME_MAX));
+        knobs.mute();
+        assert_eq!(knobs.volume(), 0.0);
+        knobs.mute();
+        assert_eq!(knobs.volume(), VOLUME_MAX);
+        knobs.mute();
+        for _ in 0..30 {
+            knobs.turn(false);
+        }
+        assert_eq!((knobs.volume(), knobs.is_muted()), (0.0, false));
+    }
+}
