@@ -70,7 +70,7 @@ pub fn plan(
         retry: RETRY,
         allocator: None,
     };
-    let knobs = Arc::new(Knobs::new(section.volume as f32));
+    let knobs = Arc::new(Knobs::new(section.volume as f32, mode(section)));
     Ok(Some(Plan { wiring, foley, first, pace, knobs }))
 }
 
@@ -104,12 +104,17 @@ pub fn bank(recordings: Option<&Path>, rate_hz: u32) -> Bank {
 /// How it is mixed; the rate is the stream's.
 pub fn mix_settings(section: &SoundSection) -> MixSettings {
     MixSettings {
-        mode: match section.mode {
-            SoundMode::Headphones => Mode::Headphones,
-            SoundMode::Loudspeakers => Mode::Loudspeakers,
-        },
+        mode: mode(section),
         room: section.room.then_some(Room::CELLAR),
+        room_tone: section.room_tone,
         volume: section.volume as f32,
         ..MixSettings::default()
+    }
+}
+
+fn mode(section: &SoundSection) -> Mode {
+    match section.mode {
+        SoundMode::Headphones => Mode::Headphones,
+        SoundMode::Loudspeakers => Mode::Loudspeakers,
     }
 }

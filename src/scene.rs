@@ -334,6 +334,8 @@ pub struct SoundSection {
     pub mode: SoundMode,
     /// The walls of a room answer.
     pub room: bool,
+    /// The soft noise of a room at night.
+    pub room_tone: bool,
     /// A folder of recordings that stand in for what is synthesised, seen from the scene's folder.
     pub recordings: Option<String>,
 }

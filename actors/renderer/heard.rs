@@ -1,19 +1,19 @@
-//! Sound in the window: where the picture is seen from it is heard from, and keys turn the volume.
+//! Sound in the window: where the picture is seen from it is heard from, and keys turn volume and mode.
 
 use crate::sound::Knobs;
 use hapticbillard::input::{CameraPose, Key};
 use hapticbillard::renderer::{Hud, Words};
-use hapticbillard::sound::Listener;
+use hapticbillard::sound::{Listener, Mode};
 use std::sync::Arc;
 
-/// How long the volume stands in the window after it was turned [s].
+/// How long volume and mode stand in the window after it was turned [s].
 const SHOWN_S: f64 = 2.0;
 
 /// What a window has to do with sound.
 pub struct HeardSetup {
     /// Where it is heard from.
     pub listener: triple_buffer::Input<Listener>,
-    /// Volume and mute.
+    /// Volume, mute and mode.
     pub knobs: Arc<Knobs>,
 }
 
@@ -21,12 +21,13 @@ pub struct HeardSetup {
 pub struct HeardScreen {
     setup: HeardSetup,
     turned_s: f64,
+    mode_s: f64,
 }
 
 impl HeardScreen {
     /// Before the first picture.
     pub fn new(setup: HeardSetup) -> Self {
-        HeardScreen { setup, turned_s: f64::NEG_INFINITY }
+        HeardScreen { setup, turned_s: f64::NEG_INFINITY, mode_s: f64::NEG_INFINITY }
     }
 
     /// The picture is taken from here.
@@ -41,13 +42,18 @@ impl HeardScreen {
             Key::Letter('+') => self.setup.knobs.turn(true),
             Key::Letter('-') => self.setup.knobs.turn(false),
             Key::Letter('m') => self.setup.knobs.mute(),
+            Key::Letter('n') => {
+                self.setup.knobs.change_mode();
+                self.mode_s = now_s;
+                return true;
+            }
             _ => return false,
         }
         self.turned_s = now_s;
         true
     }
 
-    /// The volume, while it was turned just now; that it is off, as long as it is.
+    /// Volume and mode, while they were turned just now; that it is off, as long as it is.
     pub fn write(&self, written: &mut Hud, words: &Words, now_s: f64) {
         let knobs = &self.setup.knobs;
         if knobs.is_muted() {
@@ -55,6 +61,12 @@ impl HeardScreen {
         } else if now_s < self.turned_s + SHOWN_S {
             let percent = format!("{:.0}", knobs.share() * 100.0);
             written.message.push(words.fill("volume", "percent", &percent));
+        }
+        if now_s < self.mode_s + SHOWN_S {
+            written.message.push(words.get(match knobs.mode() {
+                Mode::Headphones => "headphones",
+                Mode::Loudspeakers => "loudspeakers",
+            }));
         }
     }
 }

@@ -2,11 +2,12 @@
 
 use super::SOUND;
 use super::callback::Due;
+use super::knobs::Knobs;
 use super::line::{News, Open};
 use super::seat::{Held, Ports, Seat};
 use hapticbillard::events::{Event, Health};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::sound::{Foley, Listener, Onset, Rolling, Stream, Timeline, Told};
+use hapticbillard::sound::{Foley, Listener, Mode, Onset, Rolling, Stream, Timeline, Told};
 use hapticbillard::tick::Delivered;
 use kameo::prelude::*;
 use std::sync::Arc;
@@ -32,13 +33,14 @@ struct Teller {
     pace: f64,
     listener: Option<Listener>,
     volume: Option<f32>,
+    mode: Option<Mode>,
 }
 
 impl Sound {
     /// Takes hold of a line. None while somebody else does.
     pub fn new(seat: &Arc<Seat>) -> Option<Self> {
         let mut held = seat.hold()?;
-        let teller = Teller { timeline: None, pace: seat.pace(), listener: None, volume: None };
+        let teller = Teller::new(seat.pace());
         let (mut foley, mut newest) = (seat.foley(), Arc::default());
         if let Some(ports) = held.ports() {
             // What happened while nobody listened is not heard all at once.
@@ -92,7 +94,7 @@ impl Sound {
             self.newest = world;
         }
         if let Some((open, teller)) = &mut stream {
-            teller.turn(open, *listener.read(), knobs.volume());
+            teller.turn(open, *listener.read(), &knobs);
             let dropped = open.counters.dropped();
             if self.dropped != dropped {
                 self.dropped = dropped;
@@ -125,6 +127,11 @@ fn see(foley: &mut Foley, snapshot: &Arc<Snapshot>, stream: &mut Way<'_>) {
 }
 
 impl Teller {
+    /// Of a stream that was told nothing.
+    fn new(pace: f64) -> Self {
+        Teller { timeline: None, pace, listener: None, volume: None, mode: None }
+    }
+
     fn timeline(&mut self, open: &Open) -> &mut Timeline {
         let pace = self.pace;
         self.timeline.get_or_insert_with(|| Timeline::new(f64::from(open.rate_hz), pace))
@@ -140,8 +147,10 @@ impl Teller {
         tell(open, (at_frame, Told::Roll(rolling)));
     }
 
-    /// Where it is heard from and how loud, if that has changed; it holds at once.
-    fn turn(&mut self, open: &mut Open, listener: Listener, volume: f32) {
+    /// Where it is heard from, how loud, and what it is mixed for, if that has changed; it holds at
+    /// once.
+    fn turn(&mut self, open: &mut Open, listener: Listener, knobs: &Knobs) {
+        let (volume, mode) = (knobs.volume(), knobs.mode());
         if self.listener != Some(listener) {
             self.listener = Some(listener);
             tell(open, (0, Told::Listener(listener)));
@@ -149,6 +158,10 @@ impl Teller {
         if self.volume != Some(volume) {
             self.volume = Some(volume);
             tell(open, (0, Told::Volume(volume)));
+        }
+        if self.mode != Some(mode) {
+            self.mode = Some(mode);
+            tell(open, (0, Told::Mode(mode)));
         }
     }
 }
@@ -176,7 +189,7 @@ fn hear_line(
     told: News,
     was_lost: bool,
 ) -> (bool, Option<Health>) {
-    *teller = Teller { timeline: None, pace: teller.pace, listener: None, volume: None };
+    *teller = Teller::new(teller.pace);
     match told {
         News::Open(open) => {
             log::info!("{SOUND}: plays through {} at {} Hz", open.device, open.rate_hz);

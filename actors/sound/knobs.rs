@@ -1,5 +1,6 @@
-//! Volume and mute, turned by the window and looked at by the actor.
+//! Volume, mute and mode, turned by the window and looked at by the actor.
 
+use hapticbillard::sound::Mode;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// How much a press of a key changes the volume, as a share of what the scene says.
@@ -15,13 +16,33 @@ pub struct Knobs {
     scene: f32,
     share: AtomicU32,
     is_muted: AtomicBool,
+    /// Mixed for loudspeakers, not for headphones.
+    is_for_loudspeakers: AtomicBool,
 }
 
 impl Knobs {
-    /// For a scene with this volume.
-    pub fn new(scene: f32) -> Self {
-        let share = AtomicU32::new(1.0_f32.to_bits());
-        Knobs { scene, share, is_muted: AtomicBool::new(false) }
+    /// For a scene with this volume and mode.
+    pub fn new(scene: f32, mode: Mode) -> Self {
+        Knobs {
+            scene,
+            share: AtomicU32::new(1.0_f32.to_bits()),
+            is_muted: AtomicBool::new(false),
+            is_for_loudspeakers: AtomicBool::new(mode == Mode::Loudspeakers),
+        }
+    }
+
+    /// What it is mixed for.
+    pub fn mode(&self) -> Mode {
+        if self.is_for_loudspeakers.load(Ordering::Relaxed) {
+            Mode::Loudspeakers
+        } else {
+            Mode::Headphones
+        }
+    }
+
+    /// From headphones to loudspeakers, or back.
+    pub fn change_mode(&self) {
+        self.is_for_loudspeakers.fetch_xor(true, Ordering::Relaxed);
     }
 
     /// What is heard: 0 while it is muted.
@@ -60,7 +81,7 @@ mod tests {
 
     #[test]
     fn up_and_down_lead_back_and_mute_remembers() {
-        let knobs = Knobs::new(3.0);
+        let knobs = Knobs::new(3.0, Mode::Headphones);
         knobs.turn(true);
         knobs.turn(false);
         assert_eq!(knobs.volume(), 3.0);
@@ -77,5 +98,15 @@ mod tests {
             knobs.turn(false);
         }
         assert_eq!((knobs.volume(), knobs.is_muted()), (0.0, false));
+    }
+
+    #[test]
+    fn the_mode_goes_there_and_back() {
+        let knobs = Knobs::new(1.0, Mode::Loudspeakers);
+        assert_eq!(knobs.mode(), Mode::Loudspeakers);
+        knobs.change_mode();
+        assert_eq!(knobs.mode(), Mode::Headphones);
+        knobs.change_mode();
+        assert_eq!(knobs.mode(), Mode::Loudspeakers);
     }
 }

@@ -481,7 +481,7 @@ fn renderer(section: &Section<'_>) -> Result<RendererSection, SceneError> {
 }
 
 fn sound(section: &Section<'_>) -> Result<SoundSection, SceneError> {
-    section.allow(&["device", "volume", "mode", "room", "recordings"])?;
+    section.allow(&["device", "volume", "mode", "room", "room_tone", "recordings"])?;
     let volume = Limits { low: 0.0, high: 4.0, unit: "(1 is as in the world)", example: "1.0" };
     let device = section.text("device", "default")?;
     let recordings = section.text("recordings", "sounds")?;
@@ -496,6 +496,7 @@ fn sound(section: &Section<'_>) -> Result<SoundSection, SceneError> {
         volume: section.number("volume", volume)?.unwrap_or(1.0),
         mode: section.choice("mode", &SoundMode::WORDS)?.unwrap_or_default(),
         room: section.switch("room")?.unwrap_or(true),
+        room_tone: section.switch("room_tone")?.unwrap_or(false),
         recordings,
     })
 }

@@ -22,7 +22,9 @@ const ROLLING_M_S: f64 = 0.01;
 const SLIP_M_S: f64 = 0.005;
 /// When a ball that fell into a pocket begins to run through the gully [s].
 const GULLY_AFTER_S: Seconds = 0.3;
-/// Balls that are on their way to the gully, at most.
+/// When the next player chalks the tip, after everything has settled [s].
+const CHALK_AFTER_S: Seconds = 0.9;
+/// Sounds that are still to come, at most: balls on their way to the gully, chalk.
 const LATER_MAX: usize = 32;
 /// Snapshots farther from a fact say nothing about it [s].
 const FAR_S: Seconds = 0.05;
@@ -94,8 +96,11 @@ impl Foley {
             FactKind::BallPlaced { .. }
             | FactKind::HeadStringCrossed { .. }
             | FactKind::BallTouched { .. }
-            | FactKind::BallsFrozen { .. }
-            | FactKind::Settled { .. } => return None,
+            | FactKind::BallsFrozen { .. } => return None,
+            FactKind::Settled { .. } => {
+                self.chalk(at, after);
+                return None;
+            }
         };
         let onset = self.onset(at, class, speed, position, axis);
         if class == SoundClass::Pocket && self.later.len() < LATER_MAX {
@@ -103,6 +108,16 @@ impl Foley {
             self.later.push(self.onset(at, SoundClass::Gully, speed, position, axis));
         }
         Some(onset)
+    }
+
+    /// Before about every other shot the tip is chalked, where the cue is.
+    fn chalk(&mut self, settled_s: Seconds, after: Option<&Snapshot>) {
+        let Some(cue) = after.and_then(|after| after.cue).or(self.before.cue) else { return };
+        let at = settled_s + CHALK_AFTER_S;
+        let onset = self.onset(at, SoundClass::Chalk, 0.0, cue.tip, DVec3::ZERO);
+        if onset.seed.is_multiple_of(2) && self.later.len() < LATER_MAX {
+            self.later.push(onset);
+        }
     }
 
     /// What nobody told and the next snapshot shows: landings, balls that have come to the gully,

@@ -12,7 +12,7 @@ pub mod speaker;
 use super::counting;
 use hapticbillard::events::{Event, Fact, FactKind, FactSet, Source, Stamp, Stamped};
 use hapticbillard::physics::Simulation;
-use hapticbillard::sound::{Bank, MixSettings, Mixer, SoundClass, Told, render_offline};
+use hapticbillard::sound::{Bank, MixSettings, Mixer, Mode, SoundClass, Told, render_offline};
 use hapticbillard::tick::{Delivered, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::event_manager::Sink;
@@ -45,7 +45,7 @@ pub fn plan(stage: &Stage, speaker: &Speaker) -> Plan {
         allocator: None,
     };
     let foley = stage.foley(first.clone()).unwrap();
-    Plan { wiring, foley, first, pace: 1.0, knobs: Arc::new(Knobs::new(1.0)) }
+    Plan { wiring, foley, first, pace: 1.0, knobs: Arc::new(Knobs::new(1.0, Mode::Headphones)) }
 }
 
 /// The same, ready for a game.
@@ -89,7 +89,7 @@ struct Bench {
     tick: u64,
     facts: Vec<Fact>,
     /// Keeps the line.
-    _seat: Arc<Seat>,
+    seat: Arc<Seat>,
 }
 
 impl Bench {
@@ -101,7 +101,7 @@ impl Bench {
         speaker.wait_until_open();
         let simulation = stage.simulation().unwrap();
         let (sink, facts) = (seat.sink(), Vec::new());
-        Bench { control, sink, world, speaker, simulation, tick: 0, facts, _seat: seat }
+        Bench { control, sink, world, speaker, simulation, tick: 0, facts, seat }
     }
 
     /// A millisecond of the game, passed on `late` milliseconds later.
@@ -181,6 +181,25 @@ async fn two_clicks_are_as_far_apart_as_physics_has_them_and_soon_enough() {
     assert!(late_s <= 2.0 * 512.0 / rate + 0.007 + way_s, "{late_s} s");
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn who_changes_from_headphones_to_loudspeakers_hears_the_next_sound_so() {
+    let mut heard = Vec::new();
+    for changes in [0, 1, 2] {
+        let mut bench = Bench::new(&stage("break_shot"));
+        (0..changes).for_each(|_| bench.seat.knobs().change_mode());
+        for ms in 1..=400_u64 {
+            bench.tick(ms.is_multiple_of(2)).await;
+            if ms.is_multiple_of(10) {
+                bench.speaker.play(480);
+            }
+        }
+        heard.push(bench.speaker.heard());
+    }
+    assert!(peak(&heard[0]) > 0.02);
+    assert!(heard[0] != heard[1], "the mode changes nothing");
+    assert!(heard[0] == heard[2], "there and back is not the same");
+}
+
 #[test]
 fn a_full_ring_drops_and_counts_and_a_callback_never_allocates() {
     let stage = stage("break_shot");
@@ -256,6 +275,7 @@ fn every_class_that_a_game_can_make_is_in_some_score() {
         SoundClass::Pocket,
         SoundClass::Gully,
         SoundClass::Landing,
+        SoundClass::Chalk,
     ] {
         assert!(classes.contains(&class), "{class:?}");
     }

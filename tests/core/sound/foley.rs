@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use hapticbillard::ball::{BallState, Motion, POOL_RADIUS_M};
+use hapticbillard::cue::CuePose;
 use hapticbillard::events::{Fact, FactKind, FactSet};
 use hapticbillard::ids::{BallId, PocketId};
 use hapticbillard::physics::{Simulation, Snapshot, Strike};
@@ -125,6 +126,30 @@ fn a_potted_ball_falls_and_then_runs_through_the_gully() {
     }
     assert_eq!(later.iter().map(|onset| onset.class).collect::<Vec<_>>(), [SoundClass::Gully]);
     assert!(0.2 < later[0].time_s - 1.001 && later[0].time_s - 1.001 < 0.6);
+}
+
+#[test]
+fn the_tip_is_chalked_before_about_every_other_shot_where_the_cue_is() {
+    let cue = CuePose { tip: DVec3::Z, velocity: DVec3::ZERO, direction: DVec3::X, solid: false };
+    let chalked = |cue: Option<CuePose>| {
+        let at = |time_s| Arc::new(Snapshot { time_s, balls: Vec::new(), cue });
+        let mut foley = foley(&at(0.0));
+        let mut times = Vec::new();
+        for shot in 1..=100 {
+            let settled_s = 10.0 * f64::from(shot);
+            let kind = FactKind::Settled { snookered: false, cue_in_rack: false };
+            assert!(foley.hear(&Fact { time_s: settled_s, kind }, None).is_none());
+            for onset in foley.see(&at(settled_s + 5.0)).0 {
+                assert_eq!((onset.class, onset.position_m), (SoundClass::Chalk, Vec3::Z));
+                times.push(onset.time_s - settled_s);
+            }
+        }
+        times
+    };
+    let times = chalked(Some(cue));
+    assert!((30..70).contains(&times.len()), "{}", times.len());
+    assert!(times.iter().all(|after_s| (0.5..2.0).contains(after_s)));
+    assert!(chalked(None).is_empty());
 }
 
 #[test]

@@ -60,6 +60,24 @@ fn a_scene_and_the_facts_and_samples_of_it_sound_alike() {
 }
 
 #[test]
+fn a_recorded_game_sounds_as_it_did() {
+    let folder = folder("render_recording");
+    let path = |name: &str| folder.join(name).to_str().unwrap().to_owned();
+    let [game, played, replayed] = ["game.jsonl", "a.wav", "b.wav"].map(path);
+    let scene = ["--scene", "eight_ball_headless", "--seed", "5"];
+    let output = program(&[&["play"], &scene[..], &["--record", &game]].concat());
+    assert!(output.status.success(), "{output:?}");
+    for (what, out) in [(&scene[..], &played), (&["--recording", &game], &replayed)] {
+        let rest = ["--seconds", "12", "--out", out];
+        let output = program(&[&["sound", "render"], what, &rest].concat());
+        assert!(output.status.success(), "{output:?}");
+    }
+    let (heard, _) = read(Path::new(&played));
+    assert!(energy(&heard, 0) > 0.01, "{}", energy(&heard, 0));
+    assert!(fs::read(&played).unwrap() == fs::read(&replayed).unwrap(), "they differ");
+}
+
+#[test]
 fn rate_mode_and_place_of_the_listener_are_heard() {
     let folder = folder("render_options");
     let facts = folder.join("facts.jsonl");
