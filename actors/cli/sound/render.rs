@@ -8,11 +8,19 @@ use glam::Vec3;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
+#[cfg(feature = "sound")]
+use {
+    hapticbillard::sound::{MixSettings, Mode, Room},
+    hapticbillard_actors::game::Stage,
+    hapticbillard_actors::sound::{Plan, Score, Wiring},
+    std::sync::Arc,
+};
 
 const EXAMPLE: &str = "\
 The same mixer makes the file that plays in a game. A scene is played by its computer players, or
-rolls until everything rests; a recording is played again. Facts are JSON lines as `simulate --json`
-prints them; only with --sample are balls heard to roll, and the samples should lie close together.
+rolls until everything rests; a recording is played again. Both are mixed as the scene's [sound]
+says; what is written here goes before. Facts are JSON lines as `simulate --json` prints them; only
+with --sample are balls heard to roll, and the samples should lie close together.
 
 Examples:
   hapticbillard sound render --scene break_shot --out break.wav
@@ -49,9 +57,9 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
 
-    /// What it is made for.
-    #[arg(long, value_enum, default_value_t)]
-    pub mode: ModeName,
+    /// What it is made for. Without it: what the scene says, else headphones.
+    #[arg(long, value_enum)]
+    pub mode: Option<ModeName>,
 
     /// Where it is heard from, in metres; the listener faces the middle of the table. Without it:
     /// at the head end.
@@ -67,15 +75,17 @@ pub struct RenderArgs {
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub seconds: Option<f64>,
 
-    /// Factor of the whole; 1 is as in the world: 127 dB at one metre are full scale.
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = positive)]
-    pub volume: f64,
+    /// Factor of the whole; 1 is as in the world: 127 dB at one metre are full scale. Without it:
+    /// what the scene says, else 1.
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    pub volume: Option<f64>,
 
-    /// Without the walls of a room.
+    /// Without the walls of a room, whatever the scene says.
     #[arg(long)]
     pub no_room: bool,
 
     /// A folder of recordings that stand in for the synthesis; `sound bank` shows their names.
+    /// Without it: that of the scene.
     #[arg(long, value_name = "DIR")]
     pub recordings: Option<PathBuf>,
 
@@ -89,10 +99,9 @@ pub struct RenderArgs {
 }
 
 /// What a file is made for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum ModeName {
     /// One channel an ear.
-    #[default]
     Headphones,
     /// Two loudspeakers in front of the listener.
     Loudspeakers,
@@ -119,23 +128,14 @@ pub fn run(_: &RenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
 /// Renders.
 #[cfg(feature = "sound")]
 pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    use hapticbillard::sound::{MixSettings, Mixer, Mode, Room, Told};
+    use hapticbillard::sound::{Mixer, Told};
     use hapticbillard_actors::sound::{bank, write_wave};
-    use std::sync::Arc;
 
-    let score = score(args)?;
+    let (score, asked) = score(args)?;
+    let Asked { settings, recordings } = asked.with(args);
     let onsets = score.told.iter().filter(|(_, told)| matches!(told, Told::Start { .. })).count();
-    let settings = MixSettings {
-        rate_hz: args.rate as f32,
-        mode: match args.mode {
-            ModeName::Headphones => Mode::Headphones,
-            ModeName::Loudspeakers => Mode::Loudspeakers,
-        },
-        room: (!args.no_room).then_some(Room::CELLAR),
-        volume: args.volume as f32,
-        ..MixSettings::default()
-    };
-    let mut mixer = Mixer::new(settings, Arc::new(bank(args.recordings.as_deref(), args.rate)));
+    let bank = bank(recordings.as_deref(), args.rate);
+    let mut mixer = Mixer::new(settings, Arc::new(bank));
     mixer.set_listener(listener(args));
     let longest_s = args.seconds.unwrap_or(score.end_s + TAIL_S).min(LONGEST_S);
     let end = (longest_s * f64::from(args.rate)) as u64;
@@ -164,28 +164,73 @@ fn listener(args: &RenderArgs) -> hapticbillard::sound::Listener {
     }
 }
 
+/// How it is mixed.
 #[cfg(feature = "sound")]
-fn score(args: &RenderArgs) -> Result<hapticbillard_actors::sound::Score, Error> {
+struct Asked {
+    settings: MixSettings,
+    recordings: Option<PathBuf>,
+}
+
+#[cfg(feature = "sound")]
+impl Asked {
+    /// As a window plays this scene; one that asks for no sound is played by default.
+    fn by_scene(stage: &Stage) -> Result<Self, Error> {
+        let first = Arc::new(stage.simulation()?.snapshot(0.0));
+        Ok(match stage.sound(first, 1.0)? {
+            Some(Plan { wiring: Wiring { settings, recordings, .. }, .. }) => {
+                Asked { settings, recordings }
+            }
+            None => Asked::by_default(),
+        })
+    }
+
+    fn by_default() -> Self {
+        let settings = MixSettings { room: Some(Room::CELLAR), ..MixSettings::default() };
+        Asked { settings, recordings: None }
+    }
+
+    /// The same with what the command line says.
+    fn with(self, args: &RenderArgs) -> Self {
+        let settings = MixSettings {
+            rate_hz: args.rate as f32,
+            mode: match args.mode {
+                Some(ModeName::Headphones) => Mode::Headphones,
+                Some(ModeName::Loudspeakers) => Mode::Loudspeakers,
+                None => self.settings.mode,
+            },
+            room: self.settings.room.filter(|_| !args.no_room),
+            volume: args.volume.map_or(self.settings.volume, |volume| volume as f32),
+            ..self.settings
+        };
+        Asked { settings, recordings: args.recordings.clone().or(self.recordings) }
+    }
+}
+
+#[cfg(feature = "sound")]
+fn score(args: &RenderArgs) -> Result<(Score, Asked), Error> {
     use crate::cli::replay::read_recording;
     use hapticbillard::scene::Overrides;
     use hapticbillard_actors::files::load_scene;
-    use hapticbillard_actors::game::Stage;
     use hapticbillard_actors::sound::score;
-    use std::sync::Arc;
 
     let limit_s = args.seconds.unwrap_or(LONGEST_S).min(LONGEST_S);
     if let Some(file) = &args.recording {
         let recording = Arc::new(read_recording(file)?);
         let stage = Stage::of_recording(&recording)?;
-        return score(&stage, Some(recording), args.rate, limit_s);
+        let asked = Asked::by_scene(&stage)?;
+        return Ok((score(&stage, Some(recording), args.rate, limit_s)?, asked));
     }
     if let Some(name) = &args.scene {
         let stage = Stage::new(&load_scene(name)?, name)?;
         let stage = stage.with(Overrides { seed: args.seed, ..Overrides::default() });
-        return score(&stage, None, args.rate, limit_s);
+        let asked = Asked::by_scene(&stage)?;
+        return Ok((score(&stage, None, args.rate, limit_s)?, asked));
     }
     match &args.facts {
-        Some(file) => facts::score(file, args.rate, args.seed.unwrap_or(0)),
+        Some(file) => {
+            let score = facts::score(file, args.rate, args.seed.unwrap_or(0))?;
+            Ok((score, Asked::by_default()))
+        }
         // The command line sees to it that there is one of the three.
         None => Err(Error::input("sound render", "nothing to render", "write --scene SCENE")),
     }

@@ -163,10 +163,39 @@ fn whatever_cannot_be_rendered_is_said_in_one_line() {
 }
 
 #[test]
-fn every_command_of_sound_teaches_with_an_example() {
-    for command in ["render", "bank", "devices"] {
-        let help = program(&["sound", command, "--help"]);
-        let help = text(&help.stdout);
-        assert!(help.contains(&format!("  hapticbillard sound {command}")), "{help}");
+fn a_scene_is_mixed_as_it_says_and_the_command_line_goes_before() {
+    let folder = folder("render_section");
+    let sounds = folder.join("sounds");
+    let sounds = sounds.to_str().unwrap();
+    let bank = program(&["sound", "bank", "--out", sounds, "--variants", "1", "--rate", "22050"]);
+    assert!(bank.status.success(), "{bank:?}");
+    let render = |section: &str, flags: &[&str]| {
+        let (scene, out) = (folder.join("scene.toml"), folder.join("out.wav"));
+        let balls = "[[ball]]\nid = 0\nposition_m = [-0.3, 0, 0.03]\nvelocity_m_s = [3, 0, 0]\n\
+            [[ball]]\nid = 1\nposition_m = [0, 0, 0.03]\n";
+        let section = section.replace(';', "\n");
+        fs::write(&scene, format!("[scene]\nname = \"x\"\n{section}\n{balls}")).unwrap();
+        let (scene, written) = (scene.to_str().unwrap(), out.to_str().unwrap());
+        let whole = ["sound", "render", "--seconds", "0.5", "--scene", scene, "--out", written];
+        let output = program(&[&whole[..], flags].concat());
+        assert!(output.status.success(), "{output:?}");
+        read(&out).0
+    };
+    let plain = render("[sound];room = false", &[]);
+    assert!(energy(&plain, 0) > 0.0);
+    assert!(plain == render("[sound]", &["--no-room"]));
+    for (key, flag) in [
+        ("mode = \"loudspeakers\"", &["--mode", "loudspeakers"][..]),
+        ("volume = 0.5", &["--volume", "0.5"]),
+        ("recordings = \"sounds\"", &["--recordings", sounds]),
+    ] {
+        let said = render(&format!("[sound];room = false;{key}"), &[]);
+        assert!(said != plain, "{key} is not heard");
+        assert!(said == render("[sound];room = false", flag), "{key} is not {flag:?}");
     }
+    let said = "[sound];room = false;mode = \"loudspeakers\";volume = 0.5";
+    assert!(plain == render(said, &["--mode", "headphones", "--volume", "1"]));
+    assert!(plain != render("[sound];room = false;room_tone = true", &[]));
+    // Without a section it is what a section without a key asks for.
+    assert!(render("", &[]) == render("[sound]", &[]));
 }
