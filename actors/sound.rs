@@ -90,15 +90,18 @@ fn recordings(section: &SoundSection, folder: Option<&Path>) -> Result<Option<Pa
 
 /// The recordings of a folder, for a stream of this rate [Hz]; what cannot be used is said in the
 /// log, and synthesised.
-pub fn bank(recordings: Option<&Path>, rate_hz: u32) -> Bank {
+///
+/// # Errors
+/// [`NoSound::NoRecordings`] if the folder cannot be listed.
+pub fn bank(recordings: Option<&Path>, rate_hz: u32) -> Result<Bank, NoSound> {
     #[cfg(feature = "sound")]
     if let Some(folder) = recordings {
-        let (bank, refused) = bank_files::read_folder(folder, rate_hz);
+        let (bank, refused) = bank_files::read_folder(folder, rate_hz)?;
         refused.iter().for_each(|refused| log::warn!("{SOUND}: {refused}"));
-        return bank;
+        return Ok(bank);
     }
     let _ = (recordings, rate_hz);
-    Bank::default()
+    Ok(Bank::default())
 }
 
 /// How it is mixed; the rate is the stream's.

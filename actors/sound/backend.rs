@@ -2,6 +2,7 @@
 
 use super::callback::Callback;
 use std::any::Any;
+use std::path::PathBuf;
 
 /// An output that sound can go to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,6 +75,16 @@ pub enum NoSound {
     Recordings {
         /// What the scene says.
         name: String,
+    },
+    /// A folder of recordings cannot be listed.
+    #[error(
+        "the recordings in {} cannot be listed ({reason}); name a folder that is there", folder.display()
+    )]
+    NoRecordings {
+        /// Which.
+        folder: PathBuf,
+        /// What the system says.
+        reason: String,
     },
     /// The operating system gives no thread.
     #[error("no thread for sound ({0}); end other programs")]

@@ -1,15 +1,18 @@
 //! Sound files: a folder of recordings that stand in for the synthesis, and samples as a file.
 //!
 //! A file that cannot be used is refused with a sentence, and what it would have been is
-//! synthesised; nothing in a folder keeps a game from being played.
+//! synthesised; nothing in a folder keeps a game from being played. That a folder which somebody
+//! named is not there is an error.
 
+use super::backend::NoSound;
 use crate::error::Error;
-use crate::files::{names_in, read_bytes};
+use crate::files::read_bytes;
 use audioadapter_buffers::direct::SequentialSlice;
 use hapticbillard::sound::{Bank, ClipName, NameError, RECORDING_S_MAX, RecordingError};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use rubato::{Fft, FixedSync, Resampler};
-use std::io::Cursor;
+use std::fs;
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -76,10 +79,14 @@ pub enum Reason {
 /// Reads what ends in `.wav` and is named `CLASS_vSPEED_VARIANT.wav`, in the order of the names;
 /// other files and folders in it are left alone. Blocks as long as the disk does: not for the audio
 /// callback.
-pub fn read_folder(folder: &Path, rate_hz: u32) -> (Bank, Vec<Refused>) {
-    let is_wav = |name: &String| name.to_ascii_lowercase().ends_with(".wav");
-    let mut names: Vec<String> = names_in(folder).into_iter().filter(is_wav).collect();
-    names.sort();
+///
+/// # Errors
+/// [`NoSound::NoRecordings`] if the folder cannot be listed.
+pub fn read_folder(folder: &Path, rate_hz: u32) -> Result<(Bank, Vec<Refused>), NoSound> {
+    let names = waves_in(folder).map_err(|problem| NoSound::NoRecordings {
+        folder: folder.to_path_buf(),
+        reason: problem.to_string(),
+    })?;
 
     let (mut bank, mut refused) = (Bank::default(), Vec::new());
     let mut read = 0;
@@ -94,7 +101,20 @@ pub fn read_folder(folder: &Path, rate_hz: u32) -> (Bank, Vec<Refused>) {
             Err(reason) => refused.push(Refused { path, reason }),
         }
     }
-    (bank, refused)
+    Ok((bank, refused))
+}
+
+/// The names in a folder that end in `.wav`, in order.
+fn waves_in(folder: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        if name.to_ascii_lowercase().ends_with(".wav") {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 /// Adds one file to a bank.

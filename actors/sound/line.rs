@@ -1,14 +1,17 @@
 //! The line to the device: a thread that opens it, waits until it is lost, and opens it again.
 //!
 //! Opening may take long, and a driver may hang in it; so it happens here and nowhere else.
+//!
+//! A device that goes as soon as it comes is not worth a message each time: after a stream that
+//! lived shortly, the next one plays silence until it has lived longer, and only then is it told of.
 
 use super::backend::{Backend, NoSound, Playing};
 use super::callback::{Callback, Counters, Due, Loss};
-use hapticbillard::sound::{MixSettings, Mixer};
+use hapticbillard::sound::{Bank, MixSettings, Mixer};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often a stream is looked at.
 const LOOK: Duration = Duration::from_millis(50);
@@ -16,6 +19,8 @@ const LOOK: Duration = Duration::from_millis(50);
 const CLOSING: Duration = Duration::from_secs(2);
 /// News that wait at most; the thread waits for whoever takes them.
 const NEWS: usize = 4;
+/// A stream has proved itself when it has lived so many waits before a retry.
+const PROVED: u32 = 5;
 
 /// A stream that plays, and how it is told something.
 pub struct Open {
@@ -84,28 +89,22 @@ impl Line {
     }
 }
 
+/// Opens the device again and again, until the end comes or nobody takes news.
 fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Receiver<()>) {
-    // Nobody ever sends: the sender's end is what is waited for.
-    let is_over =
-        |wait| matches!(ended.recv_timeout(wait), Err(flume::RecvTimeoutError::Disconnected));
-    let mut is_told = false;
+    let ways = Ways { news, ended };
+    let mut banks = Banks { folder: wiring.recordings.take(), read: Vec::new() };
+    // Whether it is known that nothing is heard, and whether the last stream lived long.
+    let (mut is_told, mut has_proved) = (false, true);
     loop {
-        let reason = match open(&mut wiring) {
+        let reason = match open(&mut wiring, &mut banks) {
             Ok((stream, open)) => {
                 let counters = open.counters.clone();
-                is_told = false;
-                if news.send(News::Open(open)).is_err() {
-                    return;
-                }
-                let mut is_wanted = true;
-                while is_wanted && counters.loss() == Loss::None {
-                    is_wanted = !is_over(LOOK);
-                }
+                let proof = PROVED * wiring.retry;
+                let watched = ways.watch(open, if has_proved { Duration::ZERO } else { proof });
                 drop(stream);
                 sum_up(&counters);
-                if !is_wanted {
-                    return;
-                }
+                let Some(Lived { was_told, lived }) = watched else { return };
+                (is_told, has_proved) = (is_told && !was_told, proof <= lived);
                 counters.loss().reason().to_string()
             }
             Err(error) => error.to_string(),
@@ -113,13 +112,84 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
         // It is said once that nothing is heard, however often it is tried.
         if is_told {
             log::debug!("sound: {reason}");
-        } else if news.send(News::Lost(reason)).is_err() {
+        } else if !ways.tell(News::Lost(reason)) {
             return;
         }
         is_told = true;
-        if is_over(wiring.retry) {
+        if ways.is_over(wiring.retry) {
             return;
         }
+    }
+}
+
+/// To whoever started the line, and from there.
+struct Ways<'a> {
+    news: &'a flume::Sender<News>,
+    /// Nobody ever sends: the sender's end is what is waited for.
+    ended: &'a flume::Receiver<()>,
+}
+
+/// What became of a stream that was lost.
+struct Lived {
+    was_told: bool,
+    lived: Duration,
+}
+
+impl Ways<'_> {
+    /// Waits; whether the end has come.
+    fn is_over(&self, wait: Duration) -> bool {
+        matches!(self.ended.recv_timeout(wait), Err(flume::RecvTimeoutError::Disconnected))
+    }
+
+    /// Waits until there is room for the news or the end comes; whether they will be taken.
+    fn tell(&self, mut told: News) -> bool {
+        loop {
+            told = match self.news.send_timeout(told, LOOK) {
+                Ok(()) => return true,
+                Err(flume::SendTimeoutError::Disconnected(_)) => return false,
+                Err(flume::SendTimeoutError::Timeout(told)) => told,
+            };
+            if self.is_over(Duration::ZERO) {
+                return false;
+            }
+        }
+    }
+
+    /// Watches a stream until it is lost, and tells of it when it is so old; none if it is wanted
+    /// no longer.
+    fn watch(&self, open: Open, told_at: Duration) -> Option<Lived> {
+        let (begun, counters) = (Instant::now(), open.counters.clone());
+        let mut untold = Some(open);
+        while counters.loss() == Loss::None {
+            let open = if told_at <= begun.elapsed() { untold.take() } else { None };
+            let is_wanted = open.is_none_or(|open| self.tell(News::Open(open)));
+            if !is_wanted || self.is_over(LOOK) {
+                return None;
+            }
+        }
+        Some(Lived { was_told: untold.is_none(), lived: begun.elapsed() })
+    }
+}
+
+/// The recordings as they were read for each rate; the disk is asked once.
+struct Banks {
+    folder: Option<PathBuf>,
+    read: Vec<(u32, Arc<Bank>)>,
+}
+
+impl Banks {
+    /// Those of a stream of this rate [Hz]. If there is no such folder everything is synthesised.
+    fn at(&mut self, rate_hz: u32) -> Arc<Bank> {
+        if let Some((_, bank)) = self.read.iter().find(|(rate, _)| *rate == rate_hz) {
+            return bank.clone();
+        }
+        let bank = super::bank(self.folder.as_deref(), rate_hz).unwrap_or_else(|error| {
+            log::warn!("{}: {error}; everything is synthesised", super::SOUND);
+            Bank::default()
+        });
+        let bank = Arc::new(bank);
+        self.read.push((rate_hz, bank.clone()));
+        bank
     }
 }
 
@@ -138,14 +208,12 @@ fn sum_up(counters: &Counters) {
     );
 }
 
-fn open(wiring: &mut Wiring) -> Result<(Playing, Open), NoSound> {
+fn open(wiring: &mut Wiring, banks: &mut Banks) -> Result<(Playing, Open), NoSound> {
     let mut ends = None;
     let (settings, allocator) = (wiring.settings, wiring.allocator);
-    let recordings = wiring.recordings.clone();
     let mut make = |rate_hz: u32| {
         let settings = MixSettings { rate_hz: rate_hz as f32, ..settings };
-        let bank = super::bank(recordings.as_deref(), rate_hz);
-        let mixer = Mixer::new(settings, Arc::new(bank));
+        let mixer = Mixer::new(settings, banks.at(rate_hz));
         let (callback, tell, counters) = Callback::new(mixer, rate_hz, allocator);
         ends = Some((tell, counters, rate_hz));
         callback

@@ -1,6 +1,7 @@
 use crate::cli::{folder, lines, program, text};
 use glam::Vec3;
 use hapticbillard::sound::{Bank, Onset, SoundClass, Voice};
+use hapticbillard_actors::sound::NoSound;
 use hapticbillard_actors::sound::bank_files::read_folder;
 use hound::{SampleFormat, WavSpec, WavWriter};
 use std::f32::consts::TAU;
@@ -67,7 +68,7 @@ fn recordings_of_any_format_and_rate_are_heard_at_their_pitch() {
             for rate_hz in [22_050, 44_100, 48_000, 96_000] {
                 let what = format!("{bits} bits, {channels} channels, {rate_hz} Hz");
                 write(&file, spec(channels, rate_hz, bits), &tone(rate_hz));
-                let (bank, refused) = read_folder(&folder, RATE_HZ);
+                let (bank, refused) = read_folder(&folder, RATE_HZ).unwrap();
                 assert!(refused.is_empty(), "{what}: {}", refused[0]);
                 assert_eq!(bank.count(SoundClass::Cushion), 1, "{what}");
                 let heard = cushion(&bank);
@@ -88,7 +89,7 @@ fn resampling_does_not_alias() {
     let low = |i: u32| 0.5 * libm::sinf(TAU * 500.0 * i as f32 / 44_100.0);
     let samples: Vec<f32> = (0..22_050).map(|i| high(i) + low(i)).collect();
     write(&folder.join("cushion_v1_1.wav"), spec(1, 44_100, 0), &samples);
-    let (bank, refused) = read_folder(&folder, 16_000);
+    let (bank, refused) = read_folder(&folder, 16_000).unwrap();
     assert!(refused.is_empty());
     let heard = cushion(&bank);
     // A pure tone: x[n+1] + x[n-1] is in proportion to x[n].
@@ -117,7 +118,7 @@ fn bad_files_are_refused_in_a_sentence_and_good_ones_are_heard() {
     std::fs::create_dir(folder.join("cushion_v1_9.wav")).unwrap();
     std::fs::write(folder.join("CREDITS.md"), "Recorded at home.").unwrap();
 
-    let (bank, refused) = read_folder(&folder, RATE_HZ);
+    let (bank, refused) = read_folder(&folder, RATE_HZ).unwrap();
     assert_eq!(bank.count(SoundClass::Cushion), 1);
     let said: Vec<String> = refused.iter().map(ToString::to_string).collect();
     let expected = [
@@ -138,9 +139,35 @@ fn bad_files_are_refused_in_a_sentence_and_good_ones_are_heard() {
         assert!(sentence.starts_with(&format!("{path} is not used: ")), "{sentence}");
         assert!(sentence.contains(reason), "{sentence}");
     }
-    // A folder that is not there has no recordings.
-    let (bank, refused) = read_folder(&folder.join("nowhere"), RATE_HZ);
-    assert!(bank.is_empty() && refused.is_empty());
+}
+
+#[test]
+fn a_folder_that_was_named_and_is_not_there_is_an_error() {
+    let folder = folder("sound_nowhere");
+    let nowhere = folder.join("soundz");
+    let error = read_folder(&nowhere, RATE_HZ).err().unwrap();
+    assert!(matches!(&error, NoSound::NoRecordings { folder, .. } if *folder == nowhere));
+
+    let scene = folder.join("scene.toml");
+    std::fs::write(&scene, "[scene]\nname = \"x\"\n[sound]\nrecordings = \"soundz\"\n").unwrap();
+    let (scene, out) = (scene.to_str().unwrap(), folder.join("out.wav"));
+    let render = ["sound", "render", "--seconds", "0.1", "--out", out.to_str().unwrap()];
+    for what in [
+        &["--scene", scene][..],
+        &["--scene", "break_shot", "--recordings", nowhere.to_str().unwrap()],
+    ] {
+        let output = program(&[&render[..], what].concat());
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        let said = text(&output.stderr);
+        assert!(said.starts_with("error: ") && said.contains("soundz cannot be listed"), "{said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert!(!out.exists());
+    }
+    // Another folder goes before the one that is missing.
+    let output = program(
+        &[&render[..], &["--scene", scene, "--recordings", folder.to_str().unwrap()]].concat(),
+    );
+    assert!(output.status.success(), "{output:?}");
 }
 
 #[test]
@@ -165,7 +192,7 @@ fn every_class_is_written_and_read_back() {
     let clips = rows.iter().filter(|row| !row["file"].as_str().unwrap().contains('/')).count();
     assert_eq!(names.len(), clips + 1);
 
-    let (bank, refused) = read_folder(&folder, RATE_HZ);
+    let (bank, refused) = read_folder(&folder, RATE_HZ).unwrap();
     assert!(refused.is_empty(), "{}", refused[0]);
     for class in SoundClass::ALL {
         let count = rows.iter().filter(|row| row["class"] == class.name()).count();

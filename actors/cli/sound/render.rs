@@ -134,7 +134,7 @@ pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let (score, asked) = score(args)?;
     let Asked { settings, recordings } = asked.with(args);
     let onsets = score.told.iter().filter(|(_, told)| matches!(told, Told::Start { .. })).count();
-    let bank = bank(recordings.as_deref(), args.rate);
+    let bank = bank(recordings.as_deref(), args.rate)?;
     let mut mixer = Mixer::new(settings, Arc::new(bank));
     mixer.set_listener(listener(args));
     let longest_s = args.seconds.unwrap_or(score.end_s + TAIL_S).min(LONGEST_S);
