@@ -59,6 +59,8 @@ mod sound;
 /// Sound files: a player's recordings, and every class written.
 #[cfg(feature = "sound")]
 mod sound_files;
+/// The line to a device that comes and goes.
+mod sound_line;
 /// The stub of the vendor's HD library.
 mod stub_hd;
 /// Who dies and what then.
