@@ -13,7 +13,7 @@ use tokio::task::JoinHandle;
 
 /// How long between two calls: what happens is heard so much later at most.
 const CALL: Duration = Duration::from_millis(2);
-/// How long the first pause before a restart is, and the longest.
+/// How long the first pause before a restart is, and the longest; each is twice the one before.
 const PAUSE: Duration = Duration::from_millis(250);
 const PAUSE_MAX: Duration = Duration::from_secs(60);
 /// A control that was called so often has failed for a reason of its own.
@@ -54,7 +54,8 @@ async fn run(
     joins: Joins,
     mut ended: watch::Receiver<bool>,
 ) {
-    let mut pause = PAUSE;
+    // None before the first that failed.
+    let mut pause: Option<Duration> = None;
     let mut was_gone = false;
     loop {
         // The one before has let go when it is dropped, which may be a moment after its end.
@@ -75,10 +76,13 @@ async fn run(
             log::warn!("{SOUND}: {reason}");
             tell(&news, Health::ActorFailed { actor: SOUND.into(), reason });
             was_gone = true;
-            pause = if calls < SETTLED { (2 * pause).min(PAUSE_MAX) } else { PAUSE };
+            pause = Some(match pause {
+                Some(before) if calls < SETTLED => (2 * before).min(PAUSE_MAX),
+                _ => PAUSE,
+            });
         }
         tokio::select! {
-            () = tokio::time::sleep(pause) => {}
+            () = tokio::time::sleep(pause.unwrap_or(PAUSE)) => {}
             _ = ended.changed() => return,
         }
     }
