@@ -4,23 +4,26 @@ use super::backend::{Backend, NoSound, Output, Playing};
 use super::callback::{Callback, Counters, Loss};
 use cpal::traits::{DeviceTrait, HostTrait, StreamTrait};
 use cpal::{
-    BufferSize, Device, ErrorKind, FromSample, Host, SampleFormat, SizedSample, Stream,
-    StreamConfig, SupportedBufferSize, SupportedStreamConfigRange,
+    BufferSize, Device, ErrorKind, FromSample, Host, I24, SampleFormat, SizedSample, Stream,
+    StreamConfig, SupportedBufferSize, SupportedStreamConfigRange, U24,
 };
+use hapticbillard::sound::parameters::RATES_HZ;
 use std::sync::Arc;
 
 /// The rate that is asked for [Hz]; where a device has another one the mixer takes that.
 const RATE_HZ: u32 = 48_000;
 /// Frames a period that are asked for: 11 ms.
 const PERIOD: u32 = 512;
-/// Formats, the best first.
-const FORMATS: [SampleFormat; 8] = [
+/// Formats, the best first; signed before unsigned where they are as fine.
+const FORMATS: [SampleFormat; 10] = [
     SampleFormat::F32,
-    SampleFormat::I16,
-    SampleFormat::I32,
-    SampleFormat::U16,
-    SampleFormat::U32,
     SampleFormat::F64,
+    SampleFormat::I32,
+    SampleFormat::U32,
+    SampleFormat::I24,
+    SampleFormat::U24,
+    SampleFormat::I16,
+    SampleFormat::U16,
     SampleFormat::I8,
     SampleFormat::U8,
 ];
@@ -69,11 +72,12 @@ impl Backend for Card {
 }
 
 /// libasound writes to stderr what it thinks of its configuration and of missing cards; a player is
-/// told in one line of ours.
+/// told in one line of ours. This holds for the thread that calls it, which looks for devices and
+/// opens them; the library's own thread that plays may still write.
 fn keep_library_quiet() {
     #[cfg(target_os = "linux")]
     {
-        // For this thread, and without effect if there is no memory for it.
+        // Without effect if there is no memory for it.
         let _ = alsa::Output::local_error_handler();
     }
 }
@@ -104,24 +108,9 @@ fn in_a_line(error: &cpal::Error) -> String {
 
 /// Format and configuration, the best that there is, and whether it holds the device to a period.
 fn choose(device: &Device) -> Result<(SampleFormat, StreamConfig, bool), cpal::Error> {
-    let rank = |range: &SupportedStreamConfigRange| {
-        let format = FORMATS.iter().position(|format| *format == range.sample_format())?;
-        let channels = match range.channels() {
-            2 => 0,
-            1 => 2,
-            0 => return None,
-            _ => 1,
-        };
-        let rates = range.min_sample_rate()..=range.max_sample_rate();
-        Some((channels, !rates.contains(&RATE_HZ), format))
-    };
-    let ranges = device.supported_output_configs()?;
-    let best =
-        ranges.filter_map(|range| Some((rank(&range)?, range))).min_by_key(|(rank, _)| *rank);
-    let Some((_, range)) = best else {
+    let Some((range, sample_rate)) = best(device.supported_output_configs()?) else {
         return Err(cpal::Error::new(ErrorKind::UnsupportedConfig));
     };
-    let sample_rate = RATE_HZ.clamp(range.min_sample_rate(), range.max_sample_rate());
     let takes_period = match range.buffer_size() {
         SupportedBufferSize::Range { min, max } => (*min..=*max).contains(&PERIOD),
         SupportedBufferSize::Unknown => false,
@@ -131,6 +120,37 @@ fn choose(device: &Device) -> Result<(SampleFormat, StreamConfig, bool), cpal::E
     Ok((range.sample_format(), config, takes_period))
 }
 
+/// The best of what a device offers, and its rate [Hz] nearest to the one that is asked for; none if
+/// nothing can be mixed for.
+fn best(
+    ranges: impl Iterator<Item = SupportedStreamConfigRange>,
+) -> Option<(SupportedStreamConfigRange, u32)> {
+    let ranked = ranges.filter_map(|range| Some((rank(&range)?, range)));
+    let (_, range) = ranked.min_by_key(|(rank, _)| *rank)?;
+    let sample_rate = nearest_rate(&range)?;
+    Some((range, sample_rate))
+}
+
+/// The lower the better: by channels, then by format, then by the nearest rate. None if the format,
+/// the channels or all its rates are beyond the mixer.
+fn rank(range: &SupportedStreamConfigRange) -> Option<(u8, usize, u32)> {
+    let format = FORMATS.iter().position(|format| *format == range.sample_format())?;
+    let channels = match range.channels() {
+        2 => 0,
+        1 => 2,
+        0 => return None,
+        _ => 1,
+    };
+    Some((channels, format, nearest_rate(range)?.abs_diff(RATE_HZ)))
+}
+
+/// The rate nearest to the one that is asked for, among those that can be mixed at [Hz].
+fn nearest_rate(range: &SupportedStreamConfigRange) -> Option<u32> {
+    let [low, high] = RATES_HZ.map(|rate_hz| rate_hz as u32);
+    let (low, high) = (low.max(range.min_sample_rate()), high.min(range.max_sample_rate()));
+    (low <= high).then(|| RATE_HZ.clamp(low, high))
+}
+
 fn build(
     device: &Device,
     format: SampleFormat,
@@ -138,6 +158,8 @@ fn build(
     callback: Callback,
 ) -> Result<Stream, cpal::Error> {
     match format {
+        SampleFormat::I24 => build_as::<I24>(device, config, callback),
+        SampleFormat::U24 => build_as::<U24>(device, config, callback),
         SampleFormat::F32 => build_as::<f32>(device, config, callback),
         SampleFormat::I16 => build_as::<i16>(device, config, callback),
         SampleFormat::I32 => build_as::<i32>(device, config, callback),
@@ -173,5 +195,51 @@ fn note(counters: &Arc<Counters>, kind: ErrorKind) {
         ErrorKind::RealtimeDenied | ErrorKind::DeviceChanged => {}
         ErrorKind::DeviceNotAvailable | ErrorKind::HostUnavailable => counters.lose(Loss::Gone),
         _ => counters.lose(Loss::Invalid),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(
+        channels: u16,
+        rates_hz: [u32; 2],
+        format: SampleFormat,
+    ) -> SupportedStreamConfigRange {
+        let [low, high] = rates_hz;
+        let period = SupportedBufferSize::Unknown;
+        SupportedStreamConfigRange::new(channels, low, high, period, format)
+    }
+
+    #[test]
+    fn two_channels_go_before_the_format_and_the_format_before_the_rate() {
+        use SampleFormat::{F32, I16, I24, U8};
+        let (cd, studio, any) = ([44_100; 2], [48_000; 2], [8_000, 192_000]);
+        // The best stands first; whichever order they come in it is taken.
+        for (better, worse, rate_hz) in [
+            (range(2, cd, F32), range(2, studio, U8), 44_100),
+            (range(2, cd, I16), range(6, studio, F32), 44_100),
+            (range(6, cd, I16), range(1, studio, F32), 44_100),
+            (range(2, any, I24), range(2, any, I16), 48_000),
+            (range(2, studio, I16), range(2, cd, I16), 48_000),
+            (range(2, [88_200, 192_000], I16), range(2, [8_000; 2], U8), 88_200),
+            (range(2, [96_000; 2], I16), range(2, [384_000; 2], F32), 96_000),
+            (range(2, any, I16), range(2, any, SampleFormat::DsdU8), 48_000),
+            (range(1, [4_000, 11_025], U8), range(0, any, F32), 11_025),
+            (range(2, [96_000, 768_000], F32), range(2, [4_000; 2], F32), 96_000),
+        ] {
+            for offered in [[better, worse], [worse, better]] {
+                assert_eq!(best(offered.into_iter()), Some((better, rate_hz)));
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_mixed_for_is_not_opened() {
+        let beyond =
+            [range(2, [384_000; 2], SampleFormat::F32), range(2, [4_000; 2], SampleFormat::F32)];
+        assert_eq!(best(beyond.into_iter()), None);
+        assert_eq!(best([].into_iter()), None);
     }
 }
