@@ -192,7 +192,7 @@ fn note(counters: &Arc<Counters>, kind: ErrorKind) {
     match kind {
         ErrorKind::Xrun => counters.note_xrun(),
         // It goes on.
-        ErrorKind::RealtimeDenied | ErrorKind::DeviceChanged => {}
+        ErrorKind::DeviceChanged => {}
         ErrorKind::DeviceNotAvailable | ErrorKind::HostUnavailable => counters.lose(Loss::Gone),
         _ => counters.lose(Loss::Invalid),
     }
