@@ -149,7 +149,8 @@ fn a_folder_that_was_named_and_is_not_there_is_an_error() {
     assert!(matches!(&error, NoSound::NoRecordings { folder, .. } if *folder == nowhere));
 
     let scene = folder.join("scene.toml");
-    std::fs::write(&scene, "[scene]\nname = \"x\"\n[sound]\nrecordings = \"soundz\"\n").unwrap();
+    std::fs::write(&scene, "[scene]\nname = \"x\"\n[physics]\n[sound]\nrecordings = \"soundz\"\n")
+        .unwrap();
     let (scene, out) = (scene.to_str().unwrap(), folder.join("out.wav"));
     let render = ["sound", "render", "--seconds", "0.1", "--out", out.to_str().unwrap()];
     for what in [

@@ -174,7 +174,7 @@ fn a_scene_is_mixed_as_it_says_and_the_command_line_goes_before() {
         let balls = "[[ball]]\nid = 0\nposition_m = [-0.3, 0, 0.03]\nvelocity_m_s = [3, 0, 0]\n\
             [[ball]]\nid = 1\nposition_m = [0, 0, 0.03]\n";
         let section = section.replace(';', "\n");
-        fs::write(&scene, format!("[scene]\nname = \"x\"\n{section}\n{balls}")).unwrap();
+        fs::write(&scene, format!("[scene]\nname = \"x\"\n[physics]\n{section}\n{balls}")).unwrap();
         let (scene, written) = (scene.to_str().unwrap(), out.to_str().unwrap());
         let whole = ["sound", "render", "--seconds", "0.5", "--scene", scene, "--out", written];
         let output = program(&[&whole[..], flags].concat());
