@@ -1,4 +1,5 @@
-//! Sound in the window: where the picture is seen from it is heard from, and keys turn volume and mode.
+//! Sound in the window: where the picture is seen from it is heard from, and keys turn volume and
+//! mode.
 
 use crate::sound::Knobs;
 use hapticbillard::input::{CameraPose, Key};

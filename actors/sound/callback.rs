@@ -48,6 +48,7 @@ impl Loss {
 #[derive(Debug, Default)]
 pub struct Counters {
     frames: AtomicU64,
+    taken: AtomicU64,
     period: AtomicU32,
     xruns: AtomicU64,
     dropped: AtomicU64,
@@ -62,9 +63,14 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// The next frame that will be mixed.
+    /// Frames mixed so far.
     pub fn frames(&self) -> u64 {
         self.frames.load(Ordering::Acquire)
+    }
+
+    /// The next frame that no callback has begun to mix.
+    pub fn next(&self) -> u64 {
+        self.taken.load(Ordering::Acquire)
     }
 
     /// Frames mixed in the last callback.
@@ -167,6 +173,7 @@ impl Callback {
         let calls = self.allocator.map(|calls| calls());
         let before = thread_cpu_time();
         let frames = out.len() / channels.max(1);
+        self.counters.taken.store(self.mixer.frame() + frames as u64, Ordering::Release);
         for piece in out.chunks_mut(channels.max(1) * BLOCK) {
             let length = piece.len() / channels.max(1);
             self.mix(length);

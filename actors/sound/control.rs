@@ -23,8 +23,13 @@ pub struct Sound {
     teller: Teller,
     /// Not shown to the foley yet: facts that lie before it may still be on their way.
     newest: Arc<Snapshot>,
-    is_lost: bool,
-    dropped: u64,
+    /// Nothing is heard, and the player was told so by the one before: who hears of this one shall
+    /// hear it again.
+    is_still_lost: bool,
+    /// What found the ring full, and what found the mail full, when last looked at.
+    dropped: [u64; 2],
+    is_dropping: bool,
+    ran_dry: u64,
 }
 
 /// What a stream was told last.
@@ -42,13 +47,25 @@ impl Sound {
         let mut held = seat.hold()?;
         let teller = Teller::new(seat.pace());
         let (mut foley, mut newest) = (seat.foley(), Arc::default());
+        let (mut is_still_lost, mut dropped) = (false, [0, seat.dropped()]);
         if let Some(ports) = held.ports() {
+            is_still_lost = ports.lost.is_some();
+            dropped[0] = ports.open.as_ref().map_or(0, |open| open.counters.dropped());
             // What happened while nobody listened is not heard all at once.
             ports.mail.try_iter().for_each(drop);
             newest = ports.world.read().clone();
             foley.see(&newest);
         }
-        Some(Sound { held, foley, teller, newest, is_lost: false, dropped: 0 })
+        Some(Sound {
+            held,
+            foley,
+            teller,
+            newest,
+            is_still_lost,
+            dropped,
+            is_dropping: false,
+            ran_dry: 0,
+        })
     }
 }
 
@@ -69,13 +86,16 @@ impl Message<Work> for Sound {
 
 impl Sound {
     fn work(&mut self) -> Vec<Health> {
-        let knobs = self.held.seat().knobs().clone();
+        let seat = self.held.seat().clone();
         let mut news = Vec::new();
         let Some(ports) = self.held.ports() else { return news };
+        if std::mem::take(&mut self.is_still_lost) {
+            let reason = ports.lost.clone();
+            news.extend(reason.map(|reason| Health::ActorFailed { actor: SOUND.into(), reason }));
+        }
         while let Ok(told) = ports.news.try_recv() {
-            let (is_lost, health) = hear_line(ports, &mut self.teller, told, self.is_lost);
-            self.is_lost = is_lost;
-            news.extend(health);
+            news.extend(hear_line(ports, &mut self.teller, told));
+            (self.dropped[0], self.ran_dry) = (0, 0);
         }
 
         // The world first: mail that comes behind it may be older, but none is missing that is.
@@ -94,12 +114,19 @@ impl Sound {
             self.newest = world;
         }
         if let Some((open, teller)) = &mut stream {
-            teller.turn(open, *listener.read(), &knobs);
-            let dropped = open.counters.dropped();
-            if self.dropped != dropped {
-                self.dropped = dropped;
-                news.push(Health::QueueFull { queue: SOUND.into(), dropped });
+            teller.turn(open, *listener.read(), seat.knobs());
+            let ran_dry = open.counters.xruns();
+            if std::mem::replace(&mut self.ran_dry, ran_dry) == 0 && 0 < ran_dry {
+                log::warn!("{SOUND}: the device ran dry; how often is said at its end");
             }
+        }
+        let in_ring = open.as_ref().map_or(self.dropped[0], |open| open.counters.dropped());
+        let dropped = [in_ring, seat.dropped()];
+        // Once as long as it goes on.
+        let is_dropping = std::mem::replace(&mut self.dropped, dropped) != dropped;
+        if !std::mem::replace(&mut self.is_dropping, is_dropping) && is_dropping {
+            let dropped = dropped.iter().sum();
+            news.push(Health::QueueFull { queue: SOUND.into(), dropped });
         }
         news
     }
@@ -147,21 +174,18 @@ impl Teller {
         tell(open, (at_frame, Told::Roll(rolling)));
     }
 
-    /// Where it is heard from, how loud, and what it is mixed for, if that has changed; it holds at
-    /// once.
+    /// Where it is heard from, how loud, and what it is mixed for, if that has changed; it holds
+    /// behind what was told before. What found the ring full is told again.
     fn turn(&mut self, open: &mut Open, listener: Listener, knobs: &Knobs) {
         let (volume, mode) = (knobs.volume(), knobs.mode());
-        if self.listener != Some(listener) {
+        if self.listener != Some(listener) && tell(open, (0, Told::Listener(listener))) {
             self.listener = Some(listener);
-            tell(open, (0, Told::Listener(listener)));
         }
-        if self.volume != Some(volume) {
+        if self.volume != Some(volume) && tell(open, (0, Told::Volume(volume))) {
             self.volume = Some(volume);
-            tell(open, (0, Told::Volume(volume)));
         }
-        if self.mode != Some(mode) {
+        if self.mode != Some(mode) && tell(open, (0, Told::Mode(mode))) {
             self.mode = Some(mode);
-            tell(open, (0, Told::Mode(mode)));
         }
     }
 }
@@ -171,35 +195,33 @@ fn stream(open: &Open) -> Stream {
         0 => PERIOD_FIRST,
         period => period,
     };
-    Stream { now: open.counters.frames(), period }
+    Stream { now: open.counters.next(), period }
 }
 
-/// When the ring is full it is dropped: the stream stands still, or far more happens than can be
-/// heard.
-fn tell(open: &mut Open, due: Due) {
-    if open.tell.push(due).is_err() {
+/// Says whether it got in. When the ring is full it is dropped: the stream stands still, or far more
+/// happens than can be heard.
+fn tell(open: &mut Open, due: Due) -> bool {
+    let is_in = open.tell.push(due).is_ok();
+    if !is_in {
         open.counters.note_dropped();
     }
+    is_in
 }
 
-/// A stream is there, or no longer; says whether none is, and what the player is told.
-fn hear_line(
-    ports: &mut Ports,
-    teller: &mut Teller,
-    told: News,
-    was_lost: bool,
-) -> (bool, Option<Health>) {
+/// A stream is there, or no longer; what the player is told of it.
+fn hear_line(ports: &mut Ports, teller: &mut Teller, told: News) -> Option<Health> {
     *teller = Teller::new(teller.pace);
     match told {
         News::Open(open) => {
             log::info!("{SOUND}: plays through {} at {} Hz", open.device, open.rate_hz);
             ports.open = Some(open);
-            (false, was_lost.then(|| Health::ActorRestarted { actor: SOUND.into() }))
+            ports.lost.take().map(|_| Health::ActorRestarted { actor: SOUND.into() })
         }
         News::Lost(reason) => {
             log::warn!("{SOUND}: {reason}; the game goes on without it");
             ports.open = None;
-            (true, Some(Health::ActorFailed { actor: SOUND.into(), reason }))
+            ports.lost = Some(reason.clone());
+            Some(Health::ActorFailed { actor: SOUND.into(), reason })
         }
     }
 }

@@ -23,9 +23,11 @@ pub struct Knobs {
 impl Knobs {
     /// For a scene with this volume and mode.
     pub fn new(scene: f32, mode: Mode) -> Self {
+        // A scene that begins in silence can be turned up all the same.
+        let (scene, share) = if 0.0 < scene { (scene, 1.0_f32) } else { (1.0, 0.0) };
         Knobs {
             scene,
-            share: AtomicU32::new(1.0_f32.to_bits()),
+            share: AtomicU32::new(share.to_bits()),
             is_muted: AtomicBool::new(false),
             is_for_loudspeakers: AtomicBool::new(mode == Mode::Loudspeakers),
         }
@@ -47,7 +49,7 @@ impl Knobs {
 
     /// What is heard: 0 while it is muted.
     pub fn volume(&self) -> f32 {
-        if self.is_muted() { 0.0 } else { (self.scene * self.share()).min(VOLUME_MAX) }
+        if self.is_muted() { 0.0 } else { self.scene * self.share() }
     }
 
     /// Whether it is muted.
@@ -65,7 +67,9 @@ impl Knobs {
         let step = if is_louder { STEP } else { -STEP };
         // In whole steps, so that up and down lead back.
         let share = ((self.share() + step) / STEP).round() * STEP;
-        self.share.store(share.clamp(0.0, SHARE_MAX).to_bits(), Ordering::Relaxed);
+        // Where a mixer plays no louder, in whole steps too.
+        let most = (SHARE_MAX.min(VOLUME_MAX / self.scene) / STEP + 1e-3).floor() * STEP;
+        self.share.store(share.clamp(0.0, most).to_bits(), Ordering::Relaxed);
         self.is_muted.store(false, Ordering::Relaxed);
     }
 
@@ -88,16 +92,23 @@ mod tests {
         for _ in 0..30 {
             knobs.turn(true);
         }
-        assert_eq!((knobs.share(), knobs.volume()), (SHARE_MAX, VOLUME_MAX));
+        // A step more would be louder than a mixer plays.
+        assert!((knobs.share() - 1.3).abs() < 1e-6, "{}", knobs.share());
+        let loudest = knobs.volume();
+        assert!(loudest <= VOLUME_MAX && VOLUME_MAX < loudest + 3.0 * STEP);
         knobs.mute();
         assert_eq!(knobs.volume(), 0.0);
         knobs.mute();
-        assert_eq!(knobs.volume(), VOLUME_MAX);
+        assert_eq!(knobs.volume(), loudest);
         knobs.mute();
         for _ in 0..30 {
             knobs.turn(false);
         }
         assert_eq!((knobs.volume(), knobs.is_muted()), (0.0, false));
+        let silent = Knobs::new(0.0, Mode::Headphones);
+        assert_eq!(silent.volume(), 0.0);
+        silent.turn(true);
+        assert!(silent.volume() > 0.0);
     }
 
     #[test]

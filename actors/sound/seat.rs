@@ -5,11 +5,10 @@ use super::backend::NoSound;
 use super::knobs::Knobs;
 use super::line::{Line, News, Open, Wiring};
 use crate::event_manager::Sink;
-use hapticbillard::events::{Topic, Topics};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::sound::{Foley, Listener};
 use hapticbillard::tick::Delivered;
-use std::sync::atomic::AtomicU64;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Mail that waits for a control at most; what does not fit is counted as dropped.
@@ -45,6 +44,8 @@ pub struct Ports {
     pub news: flume::Receiver<News>,
     /// The stream, while there is one.
     pub open: Option<Open>,
+    /// Why there is none, once that was said.
+    pub lost: Option<String>,
     /// The newest state of the world.
     pub world: triple_buffer::Output<Arc<Snapshot>>,
     /// Where it is heard from.
@@ -75,7 +76,7 @@ impl Seat {
         let (world_in, world) = triple_buffer::triple_buffer(&first);
         let (listener_in, listener) = triple_buffer::triple_buffer(&Listener::default());
         let (mail_in, mail) = flume::bounded(MAIL);
-        let ports = Ports { news, open: None, world, listener, mail };
+        let ports = Ports { news, open: None, lost: None, world, listener, mail };
         let seat = Seat {
             line: Mutex::new(Some(line)),
             ports: Mutex::new(Some(ports)),
@@ -90,14 +91,12 @@ impl Seat {
 
     /// What its control wants to be told, and where to.
     pub fn sink(&self) -> Sink {
-        let topics = Topics::of(&[
-            Topic::CueBallStruck,
-            Topic::BallsCollided,
-            Topic::CushionHit,
-            Topic::BallPocketed,
-            Topic::BallOffTable,
-        ]);
-        Sink { topics, mail: self.mail.clone(), dropped: self.dropped.clone() }
+        Sink { topics: Foley::TOPICS, mail: self.mail.clone(), dropped: self.dropped.clone() }
+    }
+
+    /// Mail that found its queue full.
+    pub fn dropped(&self) -> u64 {
+        self.dropped.load(Ordering::Relaxed)
     }
 
     /// What makes sounds of facts, before the first fact.

@@ -6,7 +6,7 @@
 
 use super::{Onset, ROLLING_MAX, Rolling, SoundClass};
 use crate::ball::{BallPlace, BallState, Motion, POOL_RADIUS_M};
-use crate::events::{Fact, FactKind};
+use crate::events::{Fact, FactKind, Topic, Topics};
 use crate::ids::BallId;
 use crate::physics::Snapshot;
 use crate::units::Seconds;
@@ -48,6 +48,16 @@ pub struct Foley {
 }
 
 impl Foley {
+    /// What it hears.
+    pub const TOPICS: Topics = Topics::of(&[
+        Topic::CueBallStruck,
+        Topic::BallsCollided,
+        Topic::CushionHit,
+        Topic::BallPocketed,
+        Topic::BallOffTable,
+        Topic::Settled,
+    ]);
+
     /// For these balls with their radii [m]. `first` is the world before the first fact; `seed`
     /// fixes what no two hits have in common.
     pub fn new(

@@ -10,7 +10,7 @@ mod program;
 pub mod speaker;
 
 use super::counting;
-use hapticbillard::events::{Event, Fact, FactKind, FactSet, Source, Stamp, Stamped};
+use hapticbillard::events::{Event, Fact, FactKind, FactSet, Health, Source, Stamp, Stamped};
 use hapticbillard::physics::Simulation;
 use hapticbillard::sound::{Bank, MixSettings, Mixer, Mode, SoundClass, Told, render_offline};
 use hapticbillard::tick::{Delivered, Pace};
@@ -198,6 +198,37 @@ async fn who_changes_from_headphones_to_loudspeakers_hears_the_next_sound_so() {
     assert!(peak(&heard[0]) > 0.02);
     assert!(heard[0] != heard[1], "the mode changes nothing");
     assert!(heard[0] == heard[2], "there and back is not the same");
+}
+
+/// Whether the player was told that nothing is heard, or that it is heard again.
+async fn told(control: &ActorRef<Sound>) -> Option<bool> {
+    for _ in 0..2000 {
+        for health in control.ask(Work).await.unwrap().0 {
+            match health {
+                Health::ActorFailed { .. } => return Some(false),
+                Health::ActorRestarted { .. } => return Some(true),
+                _ => {}
+            }
+        }
+        tokio::time::sleep(Duration::from_millis(1)).await;
+    }
+    None
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_new_control_says_again_that_nothing_is_heard() {
+    let speaker = Speaker::new();
+    speaker.unplug();
+    let Started { seat, .. } = Seat::start(plan(&stage("break_shot"), &speaker)).unwrap();
+    let spawn = || Sound::spawn_with_mailbox(Sound::new(&seat).unwrap(), mailbox::bounded(4));
+    let control = spawn();
+    assert_eq!(told(&control).await, Some(false));
+    control.kill();
+    control.wait_for_shutdown().await;
+    let control = spawn();
+    assert_eq!(control.ask(Work).await.unwrap().0.len(), 1);
+    speaker.plug();
+    assert_eq!(told(&control).await, Some(true));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use hapticbillard::ball::{BallState, Motion, POOL_RADIUS_M};
 use hapticbillard::cue::CuePose;
-use hapticbillard::events::{Fact, FactKind, FactSet};
+use hapticbillard::events::{Fact, FactKind, FactSet, Topic};
 use hapticbillard::ids::{BallId, PocketId};
 use hapticbillard::physics::{Simulation, Snapshot, Strike};
 use hapticbillard::rack::Rack;
@@ -150,6 +150,33 @@ fn the_tip_is_chalked_before_about_every_other_shot_where_the_cue_is() {
     assert!((30..70).contains(&times.len()), "{}", times.len());
     assert!(times.iter().all(|after_s| (0.5..2.0).contains(after_s)));
     assert!(chalked(None).is_empty());
+}
+
+#[test]
+fn whoever_subscribes_to_its_topics_misses_nothing() {
+    let first = world(0.0, vec![BallState::at_rest(BallId(1), DVec3::Z * R)]);
+    let (position_m, normal_speed_m_s) = (DVec3::ZERO, 1.0);
+    let kinds = [
+        FactKind::CueBallStruck {
+            ball: BallId(1),
+            push: false,
+            moving: false,
+            miscue: false,
+            player: None,
+            position_m,
+            normal_speed_m_s,
+        },
+        FactKind::BallPocketed { ball: BallId(1), pocket: PocketId::ALL[0], speed_m_s: 1.0 },
+        FactKind::BallOffTable { ball: BallId(1) },
+        FactKind::HeadStringCrossed { ball: BallId(1) },
+        FactKind::BallsFrozen { a: BallId(0), b: BallId(1) },
+    ];
+    for kind in kinds {
+        let is_heard = foley(&first).hear(&Fact { time_s: 0.5, kind }, None).is_some();
+        assert_eq!(is_heard, Foley::TOPICS.contains(kind.topic()), "{kind:?}");
+    }
+    // What is chalked after it has settled comes later.
+    assert!(Foley::TOPICS.contains(Topic::Settled));
 }
 
 #[test]
