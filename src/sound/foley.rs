@@ -91,7 +91,7 @@ impl Foley {
             FactKind::BallOffTable { ball } => {
                 // One that came to rest beside the bed is slow, and so is silent.
                 let state = self.flown(self.before.ball(ball)?, at - self.before.time_s);
-                (SoundClass::Floor, state.velocity.length(), state.position, DVec3::NEG_Z)
+                (SoundClass::Floor, (-state.velocity.z).max(0.0), state.position, DVec3::NEG_Z)
             }
             FactKind::BallPlaced { .. }
             | FactKind::HeadStringCrossed { .. }

@@ -188,3 +188,19 @@ fn the_same_fact_sounds_the_same_and_another_one_does_not() {
     assert_eq!(seed(1.0), seed(1.0));
     assert_ne!(seed(1.0), seed(1.000_000_1));
 }
+
+#[test]
+fn a_ball_meets_the_floor_as_hard_as_it_falls_however_fast_it_flies_on() {
+    let heard = |velocity: DVec3| {
+        let first =
+            world(1.0, vec![ball(1, DVec3::new(2.0, 0.0, -0.7), velocity, Motion::Airborne)]);
+        let fact = Fact { time_s: 1.01, kind: FactKind::BallOffTable { ball: BallId(1) } };
+        foley(&first).hear(&fact, None).unwrap()
+    };
+    let falls = heard(DVec3::new(5.0, 0.0, -3.0));
+    assert_eq!((falls.class, falls.axis), (SoundClass::Floor, Vec3::NEG_Z));
+    assert!((falls.speed_m_s - 3.0 - 0.0981).abs() < 1e-5, "{}", falls.speed_m_s);
+    assert!((falls.position_m.x - 2.05).abs() < 1e-6);
+    // One that is carried up by something else does not meet it.
+    assert_eq!(heard(DVec3::new(5.0, 0.0, 1.0)).speed_m_s, 0.0);
+}
