@@ -164,8 +164,8 @@ const fn power(at_1_m_s_s: f32, exponent: f32, limits_s: [f32; 2]) -> Length {
     Length::Power { at_1_m_s_s, exponent, limits_s }
 }
 
-/// Two balls: 390 µs at 1 m/s. The mode is the lowest of a ball that an impact excites, ₀S₂ (Lamb 1882):
-/// garnish, some 35 dB below the click.
+/// Two balls: 390 µs at 1 m/s. The mode is the lowest of a ball that an impact excites, ₀S₂ (Lamb
+/// 1882): garnish, some 35 dB below the click.
 pub const BALL_CLICK: ClassParameters = ClassParameters {
     contact: Some(Contact {
         length: Length::HertzBall(RESIN),

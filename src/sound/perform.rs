@@ -2,9 +2,9 @@
 
 use super::{Mixer, Told};
 
-/// Sounds begun in one call at most. After the game has stood still, all that was told meanwhile may
-/// lie on one frame; to begin a sound costs some microseconds, and four times as many as there are
-/// slots are enough for the ear.
+/// Sounds begun in one call at most. After the game has stood still, all that was told meanwhile
+/// may lie on one frame; to begin a sound costs some microseconds, and four times as many as there
+/// are slots are enough for the ear.
 pub const STARTS_MAX: usize = 256;
 /// Things told in one call at most: twice what all balls of a table say in 20 ms.
 pub const TOLD_MAX: usize = 1024;
@@ -14,8 +14,8 @@ pub const TOLD_MAX: usize = 1024;
 ///
 /// `next_before` gives the next thing whose frame lies before the one it is asked for, once each,
 /// in order. Where a stream is cut into blocks changes no bit, and it is the same as
-/// [`super::render_offline`] gives, as long as no call comes to [`STARTS_MAX`] or [`TOLD_MAX`]: then
-/// the rest waits for the next call, so that none takes longer than it sounds.
+/// [`super::render_offline`] gives, as long as no call comes to [`STARTS_MAX`] or [`TOLD_MAX`]:
+/// then the rest waits for the next call, so that none takes longer than it sounds.
 pub fn perform(
     mixer: &mut Mixer,
     mut next_before: impl FnMut(u64) -> Option<(u64, Told)>,
