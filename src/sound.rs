@@ -30,7 +30,7 @@ pub use mix::{
     render_offline,
 };
 pub use onset::{Onset, Rolling, SoundClass};
-pub use perform::perform;
+pub use perform::{STARTS_MAX, TOLD_MAX, perform};
 pub use rolling::RollingVoice;
 pub use room_tone::RoomTone;
 pub use script::Script;

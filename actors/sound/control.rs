@@ -166,7 +166,8 @@ impl Teller {
 
     fn begin(&mut self, open: &mut Open, onset: &Onset) {
         let at_frame = self.timeline(open).onset(onset.time_s, stream(open));
-        tell(open, (at_frame, Told::Start { at_frame, onset: *onset }));
+        // At once: the mixer waits for the frame itself, and what begins sooner may be told later.
+        tell(open, (0, Told::Start { at_frame, onset: *onset }));
     }
 
     fn roll(&mut self, open: &mut Open, time_s: f64, rolling: Rolling) {

@@ -26,6 +26,8 @@ const GULLY_AFTER_S: Seconds = 0.3;
 const CHALK_AFTER_S: Seconds = 0.9;
 /// Sounds that are still to come, at most: balls on their way to the gully, chalk.
 const LATER_MAX: usize = 32;
+/// How fast a ball meets the floor that nobody saw fall [m/s]: from the height of a bed, 0.76 m.
+const FLOOR_M_S: f64 = 3.9;
 /// Snapshots farther from a fact say nothing about it [s].
 const FAR_S: Seconds = 0.05;
 
@@ -45,6 +47,8 @@ pub struct Foley {
     /// Those that were heard to roll when last looked at, in ascending order.
     rolled: SmallVec<[BallId; 16]>,
     later: Vec<Onset>,
+    /// Where each ball was last told to touch something [m], in ascending order of id.
+    touched_m: Vec<(BallId, DVec3)>,
 }
 
 impl Foley {
@@ -75,10 +79,14 @@ impl Foley {
             before: first,
             rolled: SmallVec::new(),
             later: Vec::new(),
+            touched_m: Vec::new(),
         }
     }
 
     /// What a fact sounds like. `after` is the first snapshot at or behind it, if there is one.
+    ///
+    /// A ball that no snapshot shows falls where it last touched something, or in the middle of the
+    /// table.
     pub fn hear(&mut self, fact: &Fact, after: Option<&Snapshot>) -> Option<Onset> {
         let at = fact.time_s;
         let away = |ball, point| self.away(ball, point, at, after);
@@ -95,13 +103,19 @@ impl Foley {
                 (SoundClass::Cushion, normal_speed_m_s, position_m, away(ball, position_m))
             }
             FactKind::BallPocketed { ball, speed_m_s, .. } => {
-                let state = after.and_then(|after| after.ball(ball)).or(self.before.ball(ball))?;
-                (SoundClass::Pocket, speed_m_s, state.position, DVec3::ZERO)
+                let seen = after.and_then(|after| after.ball(ball)).or(self.before.ball(ball));
+                let position = seen.map_or_else(|| self.last_touch(ball), |state| state.position);
+                (SoundClass::Pocket, speed_m_s, position, DVec3::ZERO)
             }
             FactKind::BallOffTable { ball } => {
                 // One that came to rest beside the bed is slow, and so is silent.
-                let state = self.flown(self.before.ball(ball)?, at - self.before.time_s);
-                (SoundClass::Floor, state.velocity.length(), state.position, DVec3::NEG_Z)
+                let seen = self.before.ball(ball);
+                let flown = seen.map(|state| self.flown(state, at - self.before.time_s));
+                let (speed, position) = match flown {
+                    Some(state) => ((-state.velocity.z).max(0.0), state.position),
+                    None => (FLOOR_M_S, self.last_touch(ball)),
+                };
+                (SoundClass::Floor, speed, position, DVec3::NEG_Z)
             }
             FactKind::BallPlaced { .. }
             | FactKind::HeadStringCrossed { .. }
@@ -112,12 +126,35 @@ impl Foley {
                 return None;
             }
         };
+        self.touch(&fact.kind);
         let onset = self.onset(at, class, speed, position, axis);
         if class == SoundClass::Pocket && self.later.len() < LATER_MAX {
             let at = at + GULLY_AFTER_S;
             self.later.push(self.onset(at, SoundClass::Gully, speed, position, axis));
         }
         Some(onset)
+    }
+
+    /// Keeps where the balls of a contact are.
+    fn touch(&mut self, kind: &FactKind) {
+        let (balls, position_m) = match *kind {
+            FactKind::CueBallStruck { ball, position_m, .. }
+            | FactKind::CushionHit { ball, position_m, .. } => ([ball; 2], position_m),
+            FactKind::BallsCollided { a, b, position_m, .. } => ([a, b], position_m),
+            _ => return,
+        };
+        for ball in balls {
+            match self.touched_m.binary_search_by_key(&ball, |(id, _)| *id) {
+                Ok(place) => self.touched_m[place].1 = position_m,
+                Err(place) => self.touched_m.insert(place, (ball, position_m)),
+            }
+        }
+    }
+
+    /// Where a ball last touched something, else the middle of the table [m].
+    fn last_touch(&self, ball: BallId) -> DVec3 {
+        let place = self.touched_m.binary_search_by_key(&ball, |(id, _)| *id);
+        place.map_or(DVec3::ZERO, |place| self.touched_m[place].1)
     }
 
     /// Before about every other shot the tip is chalked, where the cue is.
@@ -145,6 +182,11 @@ impl Foley {
         onsets.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         self.before = snapshot.clone();
         (onsets, self.rollings(snapshot))
+    }
+
+    /// What is still to come when nothing more is seen.
+    pub fn rest(&mut self) -> Vec<Onset> {
+        std::mem::take(&mut self.later)
     }
 
     fn onset(

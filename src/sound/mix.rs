@@ -31,9 +31,9 @@ pub use pool::VOICES_MAX;
 pub use room::Room;
 pub use settings::{MixSettings, Mode};
 
+use super::filter::TINY;
 use super::level::FULL_SCALE_PA;
-use super::{Bank, Onset, Rolling, RoomTone};
-use head::TINY;
+use super::{Bank, Onset, Rolling, RoomTone, voice};
 use limiter::Limiter;
 use line::Sums;
 use listener::Follower;
@@ -116,7 +116,7 @@ impl Mixer {
     }
 
     /// Begins a sound that leaves its place at `at_frame`, or now if that is over; the way to the
-    /// ears comes on top.
+    /// ears comes on top. One too soft to be heard takes no slot.
     ///
     /// When all slots are taken, it is merged with one of its class that begins within a
     /// millisecond of it, or the quietest of all has to go.
@@ -127,6 +127,9 @@ impl Mixer {
             self.work.refused += 1;
             return;
         };
+        if !voice::is_heard(onset) {
+            return;
+        }
         let at = at_frame.max(self.frame);
         let sound = Sound::new(onset, position_m, at, &self.around);
         self.work.begun += 1;

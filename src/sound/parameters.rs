@@ -4,6 +4,7 @@
 //! Levels are at 1 m. "Chosen" means that nothing was found in print, and that it sounds right.
 
 use super::SoundClass;
+use super::contact::hertz_s;
 
 /// Speed of sound in air of 20 °C [m/s].
 pub const SOUND_SPEED_M_S: f32 = 343.0;
@@ -66,15 +67,45 @@ pub const BALL_RESTITUTION: f32 = 0.95;
 /// the table throws back (chosen).
 pub const BROADSIDE: f32 = 0.25;
 
-/// How long a contact lasts: `at_1_m_s_s` · v^`exponent`, within limits.
+/// How long a contact lasts.
+#[derive(Debug, Clone, Copy)]
+pub enum Length {
+    /// Of a ball and another one at rest, as the materials say ([`super::contact::hertz_s`]).
+    HertzBall(Material),
+    /// Of a ball and a flat body at rest, likewise.
+    HertzFlat(Material),
+    /// `at_1_m_s_s` · v^`exponent`, within limits.
+    Power {
+        /// At 1 m/s [s].
+        at_1_m_s_s: f32,
+        /// Of the speed [1].
+        exponent: f32,
+        /// Shortest and longest [s].
+        limits_s: [f32; 2],
+    },
+}
+
+impl Length {
+    /// At a speed of approach [s].
+    pub fn at_s(self, speed_m_s: f32) -> f32 {
+        let (mass_kg, radius_m) = (BALL_MASS_KG, BALL_RADIUS_M);
+        match self {
+            Length::HertzBall(other) => {
+                hertz_s(0.5 * mass_kg, 0.5 * radius_m, [RESIN, other], speed_m_s)
+            }
+            Length::HertzFlat(other) => hertz_s(mass_kg, radius_m, [RESIN, other], speed_m_s),
+            Length::Power { at_1_m_s_s, exponent, limits_s: [shortest, longest] } => {
+                (at_1_m_s_s * libm::powf(speed_m_s, exponent)).clamp(shortest, longest)
+            }
+        }
+    }
+}
+
+/// How a ball is struck.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact {
-    /// At 1 m/s [s].
-    pub at_1_m_s_s: f32,
-    /// Of the speed [1].
-    pub exponent: f32,
-    /// Shortest and longest [s].
-    pub limits_s: [f32; 2],
+    /// How long it lasts.
+    pub length: Length,
     /// The part of it until the force is greatest [1].
     pub rise: f32,
     /// The change of a ball's velocity by the speed of approach [1].
@@ -111,8 +142,8 @@ pub struct Band {
 /// What a class of sounds is made of: one row of the table.
 #[derive(Debug, Clone, Copy)]
 pub struct ClassParameters {
-    /// The contact.
-    pub contact: Contact,
+    /// The contact; none where nothing is struck.
+    pub contact: Option<Contact>,
     /// Modes and noise grow as the speed to this power [1].
     pub speed_exponent: f32,
     /// What rings.
@@ -129,17 +160,18 @@ const fn band(low_hz: f32, high_hz: f32, rise_s: f32, t60_s: f32, level_db: f32)
     Band { low_hz, high_hz, rise_s, t60_s, level_db }
 }
 
-/// Two balls. Their contact is Hertz's ([`super::contact::hertz_s`]), what is given here is its
-/// length at 1 m/s. The mode is the lowest of a ball that an impact excites, ₀S₂ (Lamb 1882):
-/// garnish, some 35 dB below the click.
+const fn power(at_1_m_s_s: f32, exponent: f32, limits_s: [f32; 2]) -> Length {
+    Length::Power { at_1_m_s_s, exponent, limits_s }
+}
+
+/// Two balls: 390 µs at 1 m/s. The mode is the lowest of a ball that an impact excites, ₀S₂ (Lamb
+/// 1882): garnish, some 35 dB below the click.
 pub const BALL_CLICK: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 390e-6,
-        exponent: -0.2,
-        limits_s: [150e-6, 1e-3],
+    contact: Some(Contact {
+        length: Length::HertzBall(RESIN),
         rise: 0.5,
         sphere: 0.5 * (1.0 + BALL_RESTITUTION),
-    },
+    }),
     speed_exponent: 1.0,
     modes: &[mode(16_500.0, 0.005, 107.0)],
     noise: &[],
@@ -150,13 +182,7 @@ pub const BALL_CLICK: ClassParameters = ClassParameters {
 /// restitution 0.75). Leather gives back slowly. The shaft rings along its length: n c/2L with
 /// c = 4.5 km/s in maple and L = 1.47 m; levels chosen, about 20 dB below the blow.
 pub const CUE_STRIKE: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 1.7e-3,
-        exponent: -0.2,
-        limits_s: [0.8e-3, 3e-3],
-        rise: 0.4,
-        sphere: 1.33,
-    },
+    contact: Some(Contact { length: power(1.7e-3, -0.2, [0.8e-3, 3e-3]), rise: 0.4, sphere: 1.33 }),
     speed_exponent: 1.0,
     modes: &[mode(1_530.0, 0.040, 76.0), mode(3_061.0, 0.030, 80.0), mode(4_592.0, 0.025, 84.0)],
     noise: &[],
@@ -164,13 +190,11 @@ pub const CUE_STRIKE: ClassParameters = ClassParameters {
 
 /// A tip that slips off: a few short contacts and a scrape (chosen).
 pub const MISCUE: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 0.5e-3,
-        exponent: -0.2,
-        limits_s: [0.3e-3, 0.8e-3],
+    contact: Some(Contact {
+        length: power(0.5e-3, -0.2, [0.3e-3, 0.8e-3]),
         rise: 0.4,
         sphere: 0.25,
-    },
+    }),
     speed_exponent: 1.0,
     modes: &[mode(1_530.0, 0.050, 76.0), mode(3_061.0, 0.040, 76.0), mode(4_592.0, 0.030, 74.0)],
     noise: &[band(1_500.0, 6_000.0, 0.002, 0.060, 66.0)],
@@ -185,13 +209,7 @@ pub const MISCUE_GAP_S: [f32; 2] = [1e-3, 3e-3];
 /// A ball at a cushion: rubber for 3 to 6 ms, which gives back slowly; the rail of wood behind it
 /// rings, the cloth hisses 20 dB below (chosen).
 pub const CUSHION: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 5e-3,
-        exponent: -0.25,
-        limits_s: [3e-3, 6e-3],
-        rise: 0.3,
-        sphere: 1.7,
-    },
+    contact: Some(Contact { length: power(5e-3, -0.25, [3e-3, 6e-3]), rise: 0.3, sphere: 1.7 }),
     speed_exponent: 1.2,
     modes: &[
         mode(90.0, 0.120, 72.0),
@@ -204,13 +222,7 @@ pub const CUSHION: ClassParameters = ClassParameters {
 
 /// A ball at the back of a pocket: leather (chosen).
 pub const POCKET: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 4e-3,
-        exponent: -0.2,
-        limits_s: [2e-3, 8e-3],
-        rise: 0.4,
-        sphere: 1.2,
-    },
+    contact: Some(Contact { length: power(4e-3, -0.2, [2e-3, 8e-3]), rise: 0.4, sphere: 1.2 }),
     speed_exponent: 1.2,
     modes: &[],
     noise: &[band(200.0, 900.0, 0.001, 0.015, 70.0)],
@@ -218,13 +230,7 @@ pub const POCKET: ClassParameters = ClassParameters {
 
 /// The same ball [`POCKET_DEPTH_M`] below, whatever its speed was (chosen).
 pub const POCKET_DROP: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 3e-3,
-        exponent: 0.0,
-        limits_s: [3e-3, 3e-3],
-        rise: 0.4,
-        sphere: 1.3,
-    },
+    contact: Some(Contact { length: power(3e-3, 0.0, [3e-3, 3e-3]), rise: 0.4, sphere: 1.3 }),
     speed_exponent: 0.0,
     modes: &[mode(70.0, 0.150, 74.0), mode(130.0, 0.150, 74.0)],
     noise: &[band(150.0, 600.0, 0.001, 0.030, 60.0)],
@@ -236,13 +242,7 @@ pub const POCKET_DEPTH_M: f32 = 0.1;
 /// The end of the gully: the ball meets the wood of the tray, and the balls that lie there
 /// (chosen). The click is Hertz's, a third as strong, behind a lid that takes what is above 2 kHz.
 pub const GULLY: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 0.7e-3,
-        exponent: -0.2,
-        limits_s: [0.5e-3, 2e-3],
-        rise: 0.5,
-        sphere: 0.3,
-    },
+    contact: Some(Contact { length: power(0.7e-3, -0.2, [0.5e-3, 2e-3]), rise: 0.5, sphere: 0.3 }),
     speed_exponent: 1.0,
     modes: &[mode(170.0, 0.090, 66.0), mode(290.0, 0.070, 68.0), mode(520.0, 0.050, 66.0)],
     noise: &[],
@@ -256,28 +256,19 @@ pub const GULLY_SPEEDS_M_S: [f32; 2] = [0.5, 1.1];
 
 /// A ball on cloth and slate, from above (chosen).
 pub const LANDING: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 1.4e-3,
-        exponent: -0.2,
-        limits_s: [0.8e-3, 3e-3],
-        rise: 0.5,
-        sphere: 1.5,
-    },
+    contact: Some(Contact { length: power(1.4e-3, -0.2, [0.8e-3, 3e-3]), rise: 0.5, sphere: 1.5 }),
     speed_exponent: 1.1,
     modes: &[mode(140.0, 0.060, 70.0), mode(310.0, 0.045, 72.0), mode(520.0, 0.035, 70.0)],
     noise: &[band(300.0, 1_500.0, 0.001, 0.015, 58.0)],
 };
 
-/// A ball on a floor of wood, at each bounce. Hertz with a flat body; what is given here is the
-/// length at 1 m/s. Modes of the boards chosen.
+/// A ball on a floor of wood, at each bounce: 408 µs at 1 m/s. Modes of the boards chosen.
 pub const FLOOR: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 390e-6,
-        exponent: -0.2,
-        limits_s: [150e-6, 1.5e-3],
+    contact: Some(Contact {
+        length: Length::HertzFlat(WOOD),
         rise: 0.5,
         sphere: 1.0 + FLOOR_RESTITUTION,
-    },
+    }),
     speed_exponent: 1.1,
     modes: &[
         mode(82.0, 0.200, 74.0),
@@ -293,13 +284,7 @@ pub const FLOOR_RESTITUTION: f32 = 0.5;
 
 /// Chalk on a tip: a few strokes of scraping, equally loud at any speed (chosen).
 pub const CHALK: ClassParameters = ClassParameters {
-    contact: Contact {
-        at_1_m_s_s: 1e-3,
-        exponent: 0.0,
-        limits_s: [1e-3, 1e-3],
-        rise: 0.5,
-        sphere: 0.0,
-    },
+    contact: None,
     speed_exponent: 0.0,
     modes: &[],
     noise: &[band(2_200.0, 6_500.0, 0.050, 0.150, 44.0)],

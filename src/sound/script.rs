@@ -47,6 +47,7 @@ impl Script {
 
     /// Everything, each with its frame, in order: a score for [`super::render_offline`].
     pub fn finish(mut self) -> Vec<(u64, Told)> {
+        self.foley.rest().iter().for_each(|onset| self.begin(onset));
         self.told.sort_by_key(|(at_frame, _)| *at_frame);
         self.told
     }

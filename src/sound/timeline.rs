@@ -24,8 +24,9 @@ pub struct Stream {
 /// As long as game and stream run at one pace, all moments are late by the same lead, so that two
 /// onsets are as far apart as physics has them, to the frame. The lead is a period of the stream
 /// and [`MARGIN_S`]: whatever is told before the callback's next turn comes in time. When the game
-/// has stood still, lagged, or run ahead, the lead is set anew; nothing is ever put into the past,
-/// and nothing before what was told already.
+/// has stood still, lagged, or run ahead, the lead is set anew; nothing is ever put into the past.
+/// An onset that is told after a later one goes to its own frame, before that one; when the lead is
+/// set anew, no later onset comes before an earlier one, and no state before an older one.
 #[derive(Debug, Clone)]
 pub struct Timeline {
     frames_per_s: f64,
@@ -33,9 +34,11 @@ pub struct Timeline {
     slack: f64,
     /// A moment of the game and its frame.
     anchor: Option<(Seconds, f64)>,
-    /// The last onset.
+    /// The latest onset.
     heard_s: Seconds,
-    last: u64,
+    /// The latest onset's frame, and the newest state's.
+    onset: u64,
+    state: u64,
 }
 
 impl Timeline {
@@ -48,7 +51,8 @@ impl Timeline {
             slack: SLACK_S * rate_hz,
             anchor: None,
             heard_s: f64::NEG_INFINITY,
-            last: 0,
+            onset: 0,
+            state: 0,
         }
     }
 
@@ -56,14 +60,22 @@ impl Timeline {
     pub fn onset(&mut self, time_s: Seconds, stream: Stream) -> u64 {
         if !((time_s - self.heard_s).abs() <= SILENCE_S) {
             self.anchor = None;
+            self.heard_s = time_s;
+        }
+        let frame = self.frame(time_s, stream);
+        if time_s < self.heard_s {
+            // Its place is before what was told already.
+            return frame;
         }
         self.heard_s = time_s;
-        self.frame(time_s, stream)
+        self.onset = self.onset.max(frame);
+        self.onset
     }
 
     /// The frame of a ball's state at `time_s` of the game.
     pub fn state(&mut self, time_s: Seconds, stream: Stream) -> u64 {
-        self.frame(time_s, stream)
+        self.state = self.state.max(self.frame(time_s, stream));
+        self.state
     }
 
     fn frame(&mut self, time_s: Seconds, stream: Stream) -> u64 {
@@ -79,8 +91,6 @@ impl Timeline {
             }
         };
         // Half up; both are far below 2^52.
-        let frame = (frame + 0.5) as u64;
-        self.last = self.last.max(frame);
-        self.last
+        (frame + 0.5) as u64
     }
 }

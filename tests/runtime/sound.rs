@@ -288,7 +288,7 @@ fn other_formats_and_channels_get_the_same_samples() {
 }
 
 #[test]
-fn every_class_that_a_game_can_make_is_in_some_score() {
+fn every_class_of_an_ordinary_game_is_in_some_score() {
     let mut classes = Vec::new();
     for (scene, seconds) in [("break_shot", 12.0), ("eight_ball_headless", 60.0)] {
         let told = score(&stage(scene), None, RATE_HZ, seconds).unwrap().told;

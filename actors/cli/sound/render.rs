@@ -20,7 +20,8 @@ const EXAMPLE: &str = "\
 The same mixer makes the file that plays in a game. A scene is played by its computer players, or
 rolls until everything rests; a recording is played again. Both are mixed as the scene's [sound]
 says; what is written here goes before. Facts are JSON lines as `simulate --json` prints them; only
-with --sample are balls heard to roll, and the samples should lie close together.
+with --sample are balls heard to roll and to land, and the samples should lie close together.
+Without, a ball falls into a pocket or on the floor where it last touched something.
 
 Examples:
   hapticbillard sound render --scene break_shot --out break.wav

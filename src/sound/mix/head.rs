@@ -1,6 +1,7 @@
 //! The head: a sphere with an ear on either side.
 
 use super::{Listener, Mode};
+use crate::sound::filter::TINY;
 use crate::sound::parameters::SOUND_SPEED_M_S;
 use glam::Vec3;
 
@@ -73,10 +74,6 @@ pub struct Shadow {
     x1: f32,
     y1: f32,
 }
-
-/// Far below anything heard, far above the smallest normal number: keeps the tails of filters out
-/// of the denormal numbers, which some processors add a hundred times slower.
-pub const TINY: f32 = 1e-20;
 
 impl Shadow {
     /// Silent so far.

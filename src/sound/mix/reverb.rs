@@ -1,7 +1,7 @@
 //! The reverberation of the room: eight delay lines that feed each other.
 
 use super::Room;
-use super::head::TINY;
+use crate::sound::filter::TINY;
 
 /// Lengths of the lines [s]: no two have a common rhythm.
 const LINES_S: [f32; LINES] = [0.0089, 0.0113, 0.0137, 0.0169, 0.0193, 0.0231, 0.0277, 0.0319];

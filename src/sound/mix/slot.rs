@@ -64,9 +64,7 @@ impl Sound {
     pub fn new(onset: &Onset, position_m: Vec3, at: u64, around: &Surroundings) -> Sound {
         let voice = Voice::begin(onset, &around.bank, around.rate_hz);
         let (ways, nearness) = ways(&voice, position_m, around);
-        let reflections = around
-            .room
-            .map(|room| Reflections::new(&room, around, position_m, |way| voice.directivity(way)));
+        let reflections = reflections(&voice, position_m, around);
         Sound {
             voice,
             position_m,
@@ -126,6 +124,7 @@ impl Sound {
         } else if !heard_as_now && now <= self.at {
             // Nothing was said yet.
             (self.ways, self.nearness) = ways(&self.voice, self.position_m, around);
+            self.reflections = reflections(&self.voice, self.position_m, around);
             self.heard_by = (around.listener, around.mode);
         }
         self.over_at.is_none_or(|over_at| now < over_at + self.delay_max() + around.tail_frames())
@@ -138,7 +137,8 @@ impl Sound {
         ways.map(EarPath::delay).fold(walls, u64::max)
     }
 
-    /// Begins to be heard by way of where the listener is now.
+    /// Begins to be heard by way of where the listener is now. What the walls send back stays as it
+    /// began: it is over within some hundredths of a second, and softer than what comes straight.
     fn turn(&mut self, around: &Surroundings) {
         let (ways, nearness) = ways(&self.voice, self.position_m, around);
         self.leaving = Some(std::mem::replace(&mut self.ways, ways));
@@ -205,4 +205,10 @@ fn ways(voice: &Voice, position_m: Vec3, around: &Surroundings) -> ([EarPath; 2]
     let arrivals = arrivals(&around.listener, around.mode, position_m);
     let ways = arrivals.map(|arrival| EarPath::new(&arrival, sent, around));
     (ways, sent * arrivals[0].gain.max(arrivals[1].gain))
+}
+
+/// What the walls send back, if there are any.
+fn reflections(voice: &Voice, position_m: Vec3, around: &Surroundings) -> Option<Reflections> {
+    let room = around.room?;
+    Some(Reflections::new(&room, around, position_m, |way| voice.directivity(way)))
 }

@@ -5,7 +5,8 @@ use super::line::Line;
 use super::path::{BACK, BLOCK};
 use super::{Listener, MixSettings, Mode, Room};
 use crate::sound::Bank;
-use crate::sound::parameters::{RATES_HZ, SOUND_SPEED_M_S};
+use crate::sound::parameters::SOUND_SPEED_M_S;
+use crate::sound::voice::usable_rate;
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -36,8 +37,7 @@ pub struct Surroundings {
 impl Surroundings {
     /// As the settings say, and with nothing in them that is no number.
     pub fn new(settings: &MixSettings, bank: Arc<Bank>) -> Surroundings {
-        let asked = if settings.rate_hz.is_finite() { settings.rate_hz } else { 48_000.0 };
-        let rate_hz = asked.clamp(RATES_HZ[0], RATES_HZ[1]);
+        let rate_hz = usable_rate(settings.rate_hz);
         Surroundings {
             rate_hz,
             mode: settings.mode,

@@ -1,10 +1,7 @@
 //! A body that rings at one frequency after it was struck.
 
+use crate::sound::filter::TINY;
 use core::f32::consts::{FRAC_1_PI, TAU};
-
-/// Far below hearing, far above the smallest normal number: what it is added to never becomes
-/// subnormal, which would make a processor a hundred times slower.
-const NOT_SUBNORMAL: f32 = 1e-20;
 
 /// One damped mode, as a complex number that turns and shrinks: exact for blows at samples, at any
 /// rate and down to the lowest frequencies.
@@ -31,7 +28,7 @@ impl Resonator {
     pub(super) fn next(&mut self, blow: f32) -> f32 {
         let [re, im] = self.state;
         let [cos, sin] = self.turn;
-        self.state = [re * cos - im * sin + blow + NOT_SUBNORMAL, re * sin + im * cos];
+        self.state = [re * cos - im * sin + blow + TINY, re * sin + im * cos];
         self.out[0] * self.state[0] + self.out[1] * self.state[1]
     }
 

@@ -11,7 +11,7 @@ use super::{SPHERE_RINGS_S, Voice, is_heard};
 use crate::sound::chance::Chance;
 use crate::sound::level::pascal;
 use crate::sound::parameters::{
-    ClassParameters, Contact, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, class_parameters,
+    ClassParameters, SILENT_BELOW_M_S, SPEED_MAX_M_S, VARIATION, class_parameters,
 };
 use crate::sound::{Onset, SoundClass};
 
@@ -54,9 +54,9 @@ pub(super) fn synthesise(voice: &mut Voice, onset: &Onset, rate_hz: f32) {
 impl Synthesis<'_> {
     /// One contact, its modes and its noise.
     fn plain(mut self, row: &ClassParameters) {
-        let length_s = self.length_s(&row.contact);
+        let length_s = self.length_s(row);
         self.modes(row);
-        self.strike(&row.contact, length_s, 0.0, self.speed_m_s, self.drive(row));
+        self.strike(row, length_s, 0.0, self.speed_m_s, self.drive(row));
         self.noise(row, 0.0, self.drive(row));
         self.ring_out(row, length_s);
     }
@@ -67,9 +67,9 @@ impl Synthesis<'_> {
     }
 
     /// Length of the contact, with the variation of this hit [s].
-    fn length_s(&mut self, contact: &Contact) -> f32 {
-        let length = contact.at_1_m_s_s * libm::powf(self.speed_m_s, contact.exponent);
-        self.varied(length.clamp(contact.limits_s[0], contact.limits_s[1]))
+    fn length_s(&mut self, row: &ClassParameters) -> f32 {
+        let length_s = row.contact.map_or(0.0, |contact| contact.length.at_s(self.speed_m_s));
+        self.varied(length_s)
     }
 
     /// A whole number, both limits included.
@@ -84,7 +84,15 @@ impl Synthesis<'_> {
 
     /// A contact that begins `at_s` after the onset: the ball changes its velocity by the part of
     /// `speed_m_s` that the row says, the modes are struck by `modes`.
-    fn strike(&mut self, contact: &Contact, length_s: f32, at_s: f32, speed_m_s: f32, modes: f32) {
+    fn strike(
+        &mut self,
+        row: &ClassParameters,
+        length_s: f32,
+        at_s: f32,
+        speed_m_s: f32,
+        modes: f32,
+    ) {
+        let Some(contact) = row.contact else { return };
         let length = length_s * self.rate_hz;
         let pulse = Pulse {
             start: at_s * self.rate_hz,

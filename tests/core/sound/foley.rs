@@ -215,3 +215,48 @@ fn the_same_fact_sounds_the_same_and_another_one_does_not() {
     assert_eq!(seed(1.0), seed(1.0));
     assert_ne!(seed(1.0), seed(1.000_000_1));
 }
+
+#[test]
+fn a_ball_meets_the_floor_as_hard_as_it_falls_however_fast_it_flies_on() {
+    let heard = |velocity: DVec3| {
+        let first =
+            world(1.0, vec![ball(1, DVec3::new(2.0, 0.0, -0.7), velocity, Motion::Airborne)]);
+        let fact = Fact { time_s: 1.01, kind: FactKind::BallOffTable { ball: BallId(1) } };
+        foley(&first).hear(&fact, None).unwrap()
+    };
+    let falls = heard(DVec3::new(5.0, 0.0, -3.0));
+    assert_eq!((falls.class, falls.axis), (SoundClass::Floor, Vec3::NEG_Z));
+    assert!((falls.speed_m_s - 3.0 - 0.0981).abs() < 1e-5, "{}", falls.speed_m_s);
+    assert!((falls.position_m.x - 2.05).abs() < 1e-6);
+    // One that is carried up by something else does not meet it.
+    assert_eq!(heard(DVec3::new(5.0, 0.0, 1.0)).speed_m_s, 0.0);
+}
+
+#[test]
+fn a_ball_that_no_snapshot_shows_falls_where_it_last_touched_something() {
+    let first = world(0.0, Vec::new());
+    let mut foley = foley(&first);
+    let mut hear = |time_s, kind| foley.hear(&Fact { time_s, kind }, None).unwrap();
+    let pocket = PocketId::ALL[2];
+    let potted = |ball| FactKind::BallPocketed { ball: BallId(ball), pocket, speed_m_s: 1.5 };
+    let middle = hear(0.5, potted(1));
+    assert_eq!((middle.class, middle.position_m), (SoundClass::Pocket, Vec3::ZERO));
+    for (time_s, x) in [(1.0, 0.25), (1.1, 0.75)] {
+        let clicked = FactKind::BallsCollided {
+            a: BallId(3),
+            b: BallId(2),
+            in_kitchen: false,
+            position_m: DVec3::X * x,
+            normal_speed_m_s: 1.0,
+        };
+        hear(time_s, clicked);
+    }
+    assert_eq!(hear(1.5, potted(2)).position_m, Vec3::X * 0.75);
+    let floor = hear(1.6, FactKind::BallOffTable { ball: BallId(3) });
+    assert_eq!((floor.class, floor.position_m), (SoundClass::Floor, Vec3::X * 0.75));
+    assert!((3.0..5.0).contains(&floor.speed_m_s));
+    // Both are still on their way through the gully.
+    let rest = foley.rest();
+    assert_eq!(rest.iter().map(|onset| onset.class).collect::<Vec<_>>(), [SoundClass::Gully; 2]);
+    assert_eq!(rest[1].position_m, Vec3::X * 0.75);
+}

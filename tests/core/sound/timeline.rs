@@ -1,4 +1,4 @@
-//! Late by the same lead, whatever the stream does; never in the past, never out of order.
+//! Late by the same lead, whatever the stream does; never in the past, and all in their own order.
 
 use hapticbillard::sound::{Stream, Timeline};
 
@@ -30,6 +30,30 @@ fn two_onsets_are_as_far_apart_as_physics_has_them() {
         let apart = (time_s - times[0]) * RATE;
         assert!(((frame - frames[0]) as f64 - apart).abs() <= 1.0, "{frames:?}");
     }
+}
+
+#[test]
+fn an_onset_told_after_a_later_one_keeps_its_distance() {
+    let mut line = Timeline::new(RATE, 1.0);
+    // Facts of a tick, then a landing within it, then the next tick.
+    let times = [1.000_9, 1.000_2, 1.000_5, 1.001_3];
+    let frames = times.map(|time_s| line.onset(time_s, at(1.001)));
+    for (frame, time_s) in frames.iter().zip(times) {
+        let apart = (time_s - times[0]) * RATE;
+        assert!((*frame as f64 - frames[0] as f64 - apart).abs() <= 1.0, "{frames:?}");
+    }
+    // A ball's state does not hold back an onset, nor the other way round.
+    let state = line.state(1.002, at(1.002));
+    let onset = line.onset(1.001_8, at(1.002));
+    assert!(onset < state && frames[3] < onset, "{onset} {state}");
+}
+
+#[test]
+fn an_onset_whose_own_frame_is_over_is_not_put_into_the_past() {
+    let mut line = Timeline::new(RATE, 1.0);
+    let late = at(1.1);
+    line.onset(1.1, late);
+    assert!(late.now <= line.onset(1.05, late));
 }
 
 #[test]

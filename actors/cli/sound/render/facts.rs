@@ -11,12 +11,15 @@ use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::open_lines;
 use hapticbillard_actors::sound::{Score, score_of_facts};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 use std::sync::Arc;
 
 /// The most that is read [bytes].
 const BYTES_MAX: u64 = 1 << 30;
+/// Radii of balls [m].
+const RADII_M: std::ops::RangeInclusive<f64> = 0.01..=0.1;
 /// Where a scene says nothing [m/s²].
 const GRAVITY_M_S2: f64 = 9.81;
 
@@ -82,8 +85,23 @@ pub fn score(file: &Path, rate_hz: u32, seed: u64) -> Result<Score, Error> {
         return Err(Error::input(name, "there is no fact in it", fix));
     }
     let first = snapshots.first().cloned().unwrap_or_default();
-    let foley = Foley::new([], GRAVITY_M_S2, seed, first);
+    let foley = Foley::new(radii(&snapshots), GRAVITY_M_S2, seed, first);
     Ok(score_of_facts(&facts, &snapshots, foley, rate_hz))
+}
+
+/// Radius of each ball [m], which no line says: the height at which its centre lies or rolls on the
+/// bed, the least of all where it hops a little.
+fn radii(snapshots: &[Arc<Snapshot>]) -> BTreeMap<BallId, f64> {
+    let mut radii = BTreeMap::new();
+    for ball in snapshots.iter().flat_map(|snapshot| snapshot.on_table()) {
+        let height_m = ball.position.z;
+        let lies = ball.motion != Motion::Airborne && RADII_M.contains(&height_m);
+        if lies {
+            let radius_m = radii.entry(ball.id).or_insert(height_m);
+            *radius_m = height_m.min(*radius_m);
+        }
+    }
+    radii
 }
 
 fn snapshot(time_s: f64, lines: Vec<BallLine>) -> Arc<Snapshot> {

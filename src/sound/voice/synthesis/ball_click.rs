@@ -5,19 +5,15 @@
 //! way, a diameter behind.
 
 use super::Synthesis;
-use crate::sound::contact::hertz_s;
-use crate::sound::parameters::{
-    BALL_MASS_KG, BALL_RADIUS_M, ClassParameters, RESIN, SOUND_SPEED_M_S,
-};
+use crate::sound::parameters::{BALL_RADIUS_M, ClassParameters, SOUND_SPEED_M_S};
 
 /// Two contacts, of opposite sign.
 pub(super) fn ball_click(mut synthesis: Synthesis<'_>, row: &ClassParameters) {
     let speed = synthesis.speed_m_s;
-    let hertz = hertz_s(0.5 * BALL_MASS_KG, 0.5 * BALL_RADIUS_M, [RESIN; 2], speed);
-    let length_s = synthesis.varied(hertz);
+    let length_s = synthesis.length_s(row);
     synthesis.modes(row);
-    synthesis.strike(&row.contact, length_s, 0.0, speed, speed);
+    synthesis.strike(row, length_s, 0.0, speed, speed);
     let other_s = 2.0 * BALL_RADIUS_M / SOUND_SPEED_M_S;
-    synthesis.strike(&row.contact, length_s, other_s, -speed, 0.0);
+    synthesis.strike(row, length_s, other_s, -speed, 0.0);
     synthesis.ring_out(row, length_s);
 }

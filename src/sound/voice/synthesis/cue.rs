@@ -12,14 +12,8 @@ pub(super) fn miscue(mut synthesis: Synthesis<'_>, row: &ClassParameters) {
     let (mut at_s, mut strength) = (0.0, 1.0);
     synthesis.modes(row);
     for _ in 0..count {
-        let length_s = synthesis.length_s(&row.contact);
-        synthesis.strike(
-            &row.contact,
-            length_s,
-            at_s,
-            strength * synthesis.speed_m_s,
-            strength * drive,
-        );
+        let length_s = synthesis.length_s(row);
+        synthesis.strike(row, length_s, at_s, strength * synthesis.speed_m_s, strength * drive);
         at_s += synthesis.chance.between(MISCUE_GAP_S[0], MISCUE_GAP_S[1]);
         strength *= synthesis.chance.between(0.5, 0.9);
     }

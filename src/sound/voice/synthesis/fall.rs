@@ -1,10 +1,9 @@
 //! Balls that fall: into a pocket, through the gully, on the floor.
 
 use super::Synthesis;
-use crate::sound::contact::hertz_s;
 use crate::sound::parameters::{
-    BALL_MASS_KG, BALL_RADIUS_M, ClassParameters, FLOOR_RESTITUTION, GRAVITY_M_S2, GULLY_S,
-    GULLY_SPEEDS_M_S, POCKET_DEPTH_M, POCKET_DROP, RESIN, SILENT_BELOW_M_S, WOOD,
+    ClassParameters, FLOOR_RESTITUTION, GRAVITY_M_S2, GULLY_S, GULLY_SPEEDS_M_S, POCKET_DEPTH_M,
+    POCKET_DROP, SILENT_BELOW_M_S,
 };
 use crate::sound::voice::pulse::PULSES_MAX;
 use crate::sound::voice::run::Run;
@@ -12,15 +11,15 @@ use crate::sound::voice::run::Run;
 /// The back of the pocket at once, its ground after the fall.
 pub(super) fn pocket(mut synthesis: Synthesis<'_>, row: &ClassParameters) {
     let drive = synthesis.drive(row);
-    let length_s = synthesis.length_s(&row.contact);
-    synthesis.strike(&row.contact, length_s, 0.0, synthesis.speed_m_s, 0.0);
+    let length_s = synthesis.length_s(row);
+    synthesis.strike(row, length_s, 0.0, synthesis.speed_m_s, 0.0);
     synthesis.noise(row, 0.0, drive);
 
     let drop_s = (2.0 * POCKET_DEPTH_M / GRAVITY_M_S2).sqrt();
     let landing_m_s = GRAVITY_M_S2 * drop_s;
-    let length_s = synthesis.length_s(&POCKET_DROP.contact);
+    let length_s = synthesis.length_s(&POCKET_DROP);
     synthesis.modes(&POCKET_DROP);
-    synthesis.strike(&POCKET_DROP.contact, length_s, drop_s, landing_m_s, landing_m_s);
+    synthesis.strike(&POCKET_DROP, length_s, drop_s, landing_m_s, landing_m_s);
     synthesis.noise(&POCKET_DROP, drop_s, landing_m_s);
     synthesis.ring_out(&POCKET_DROP, drop_s);
 }
@@ -37,9 +36,9 @@ pub(super) fn gully(mut synthesis: Synthesis<'_>, row: &ClassParameters, seed: u
     let again_s = way_s + synthesis.chance.between(0.06, 0.12);
     for (at_s, speed_m_s) in [(way_s, arrival_m_s), (again_s, 0.3 * arrival_m_s)] {
         synthesis.speed_m_s = speed_m_s;
-        let length_s = synthesis.length_s(&row.contact);
+        let length_s = synthesis.length_s(row);
         let drive = synthesis.drive(row);
-        synthesis.strike(&row.contact, length_s, at_s, speed_m_s, drive);
+        synthesis.strike(row, length_s, at_s, speed_m_s, drive);
     }
     synthesis.ring_out(row, again_s);
 }
@@ -50,10 +49,9 @@ pub(super) fn floor(mut synthesis: Synthesis<'_>, row: &ClassParameters) {
     synthesis.modes(row);
     for _ in 0..PULSES_MAX {
         let speed = synthesis.speed_m_s;
-        let hertz = hertz_s(BALL_MASS_KG, BALL_RADIUS_M, [RESIN, WOOD], speed);
-        let length_s = synthesis.varied(hertz);
+        let length_s = synthesis.length_s(row);
         let drive = synthesis.drive(row);
-        synthesis.strike(&row.contact, length_s, at_s, speed, drive);
+        synthesis.strike(row, length_s, at_s, speed, drive);
         synthesis.ring_out(row, at_s);
 
         let up_m_s = FLOOR_RESTITUTION * speed;

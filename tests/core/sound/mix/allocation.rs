@@ -7,17 +7,6 @@ use hapticbillard::sound::{Listener, Mode, SoundClass};
 
 #[test]
 fn nothing_that_a_callback_does_allocates() {
-    const CLASSES: [SoundClass; 9] = [
-        SoundClass::BallClick,
-        SoundClass::CueStrike,
-        SoundClass::Miscue,
-        SoundClass::Cushion,
-        SoundClass::Pocket,
-        SoundClass::Gully,
-        SoundClass::Landing,
-        SoundClass::Floor,
-        SoundClass::Chalk,
-    ];
     let mut mixer = cellar();
     let mut out = [[0.0; 2]; 512];
     let before = calls();
@@ -26,7 +15,7 @@ fn nothing_that_a_callback_does_allocates() {
         let place = Vec3::new(libm::sinf(t), libm::cosf(t), 0.0);
         for k in 0..if step % 50 == 0 { 100 } else { 2 } {
             let mut onset = click(place, 0.2 + t * 0.01);
-            onset.class = CLASSES[(usize::from(step) + k) % CLASSES.len()];
+            onset.class = SoundClass::ALL[(usize::from(step) + k) % SoundClass::ALL.len()];
             mixer.start(mixer.frame() + k as u64 * 40, &onset);
         }
         for ball in 0..30 {

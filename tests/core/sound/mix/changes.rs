@@ -98,3 +98,21 @@ fn who_stands_elsewhere_hears_a_long_sound_from_there() {
     assert!(level(&before, 1) > 1.5 * level(&before, 0));
     assert!(level(&after, 0) > 1.5 * level(&after, 1));
 }
+
+#[test]
+fn a_sound_that_has_not_begun_is_heard_wholly_as_the_listener_then_is() {
+    let turn = |mixer: &mut Mixer| {
+        mixer.set_listener(Listener { position_m: Vec3::new(0.5, 2.0, 0.3), right: Vec3::NEG_X });
+        mixer.set_mode(Mode::Loudspeakers);
+    };
+    let onset = click(Vec3::new(0.3, 0.6, 0.0), 2.0);
+    let (mut before, mut after) = (cellar(), cellar());
+    before.start(1_000, &onset);
+    for mixer in [&mut before, &mut after] {
+        turn(mixer);
+    }
+    after.start(1_000, &onset);
+    let (before, after) = (hear(&mut before, 4_000), hear(&mut after, 4_000));
+    assert!(after.iter().any(|[left, _]| left.abs() > 1e-3));
+    assert!(before == after);
+}

@@ -106,3 +106,14 @@ fn voices_end_free_their_slots_and_leave_no_slow_numbers() {
     assert!(!out.iter().flatten().any(|x| x.is_subnormal()));
     assert!(peak(&channel(&out[400_000..], 0)) < 1e-15);
 }
+
+#[test]
+fn what_is_too_soft_to_be_heard_takes_no_slot() {
+    let mut mixer = field();
+    for k in 0..2 * VOICES_MAX {
+        mixer.start(0, &click(around(k), 0.019));
+    }
+    assert_eq!(mixer.work(), Default::default());
+    mixer.start(0, &click(Vec3::Y, 1.0));
+    assert_eq!((mixer.work().voices, mixer.work().begun), (1, 1));
+}

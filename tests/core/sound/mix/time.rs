@@ -2,7 +2,10 @@
 
 use super::rig::*;
 use glam::Vec3;
-use hapticbillard::sound::{Listener, MixSettings, Mode, Room};
+use hapticbillard::sound::{
+    Listener, MixSettings, Mode, Room, STARTS_MAX, TOLD_MAX, Told, perform,
+};
+use std::collections::VecDeque;
 
 #[test]
 fn two_clicks_are_as_far_apart_as_they_were_told() {
@@ -89,4 +92,27 @@ fn where_the_stream_is_cut_changes_no_bit() {
             assert!(busy(settings, cuts) == whole, "{rate_hz} Hz, {cuts:?}");
         }
     }
+}
+
+/// How many of `told`, all due at frame 0, each call of 64 frames takes.
+fn taken_each_call(told: impl Iterator<Item = Told>) -> Vec<usize> {
+    let mut mixer = cellar();
+    let mut ring: VecDeque<(u64, Told)> = told.map(|told| (0, told)).collect();
+    let mut taken = Vec::new();
+    while !ring.is_empty() {
+        let before = ring.len();
+        perform(&mut mixer, |_| ring.pop_front(), &mut [[0.0; 2]; 64]);
+        taken.push(before - ring.len());
+        assert_eq!(mixer.frame(), 64 * taken.len() as u64);
+    }
+    taken
+}
+
+#[test]
+fn what_is_told_after_a_stall_is_shared_among_the_calls_that_follow() {
+    let onset = click(Vec3::Y, 1.0);
+    let starts = (0..1000).map(|_| Told::Start { at_frame: 0, onset });
+    assert_eq!(taken_each_call(starts), [STARTS_MAX, STARTS_MAX, STARTS_MAX, 232]);
+    let turns = (0..1500).map(|_| Told::Volume(0.5));
+    assert_eq!(taken_each_call(turns), [TOLD_MAX, 1500 - TOLD_MAX]);
 }
