@@ -23,12 +23,20 @@ pub struct HeardScreen {
     setup: HeardSetup,
     turned_s: f64,
     mode_s: f64,
+    ran_dry: u64,
+    ran_dry_s: f64,
 }
 
 impl HeardScreen {
     /// Before the first picture.
     pub fn new(setup: HeardSetup) -> Self {
-        HeardScreen { setup, turned_s: f64::NEG_INFINITY, mode_s: f64::NEG_INFINITY }
+        HeardScreen {
+            setup,
+            turned_s: f64::NEG_INFINITY,
+            mode_s: f64::NEG_INFINITY,
+            ran_dry: 0,
+            ran_dry_s: f64::NEG_INFINITY,
+        }
     }
 
     /// The picture is taken from here.
@@ -54,14 +62,22 @@ impl HeardScreen {
         true
     }
 
-    /// Volume and mode, while they were turned just now; that it is off, as long as it is.
-    pub fn write(&self, written: &mut Hud, words: &Words, now_s: f64) {
+    /// Volume and mode, while they were turned just now; that it is off, as long as it is;
+    /// that the device ran dry, for a while.
+    pub fn write(&mut self, written: &mut Hud, words: &Words, now_s: f64) {
         let knobs = &self.setup.knobs;
         if knobs.is_muted() {
             written.message.push(words.get("muted"));
         } else if now_s < self.turned_s + SHOWN_S {
             let percent = format!("{:.0}", knobs.share() * 100.0);
             written.message.push(words.fill("volume", "percent", &percent));
+        }
+        let ran_dry = knobs.ran_dry();
+        if std::mem::replace(&mut self.ran_dry, ran_dry) != ran_dry {
+            self.ran_dry_s = now_s;
+        }
+        if now_s < self.ran_dry_s + SHOWN_S {
+            written.message.push(words.fill("ran_dry", "times", &ran_dry.to_string()));
         }
         if now_s < self.mode_s + SHOWN_S {
             written.message.push(words.get(match knobs.mode() {

@@ -116,7 +116,9 @@ impl Sound {
         if let Some((open, teller)) = &mut stream {
             teller.turn(open, *listener.read(), seat.knobs());
             let ran_dry = open.counters.xruns();
-            if std::mem::replace(&mut self.ran_dry, ran_dry) == 0 && 0 < ran_dry {
+            let before = std::mem::replace(&mut self.ran_dry, ran_dry);
+            seat.knobs().note_ran_dry(ran_dry.saturating_sub(before));
+            if before == 0 && 0 < ran_dry {
                 log::warn!("{SOUND}: the device ran dry; how often is said at its end");
             }
         }

@@ -1,7 +1,8 @@
-//! Volume, mute and mode, turned by the window and looked at by the actor.
+//! Volume, mute and mode, turned by the window and looked at by the actor; and what the actor shows
+//! there.
 
 use hapticbillard::sound::Mode;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
 /// How much a press of a key changes the volume, as a share of what the scene says.
 const STEP: f32 = 0.1;
@@ -18,6 +19,7 @@ pub struct Knobs {
     is_muted: AtomicBool,
     /// Mixed for loudspeakers, not for headphones.
     is_for_loudspeakers: AtomicBool,
+    ran_dry: AtomicU64,
 }
 
 impl Knobs {
@@ -30,7 +32,18 @@ impl Knobs {
             share: AtomicU32::new(share.to_bits()),
             is_muted: AtomicBool::new(false),
             is_for_loudspeakers: AtomicBool::new(mode == Mode::Loudspeakers),
+            ran_dry: AtomicU64::new(0),
         }
+    }
+
+    /// How often the device ran dry.
+    pub fn ran_dry(&self) -> u64 {
+        self.ran_dry.load(Ordering::Relaxed)
+    }
+
+    /// It ran dry so many times more.
+    pub fn note_ran_dry(&self, times: u64) {
+        self.ran_dry.fetch_add(times, Ordering::Relaxed);
     }
 
     /// What it is mixed for.

@@ -200,6 +200,18 @@ async fn who_changes_from_headphones_to_loudspeakers_hears_the_next_sound_so() {
     assert!(heard[0] == heard[2], "there and back is not the same");
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn a_device_that_ran_dry_is_counted_for_the_window() {
+    let mut bench = Bench::new(&stage("break_shot"));
+    bench.tick(true).await;
+    assert_eq!(bench.seat.knobs().ran_dry(), 0);
+    bench.speaker.run_dry();
+    bench.speaker.run_dry();
+    bench.tick(true).await;
+    bench.tick(true).await;
+    assert_eq!(bench.seat.knobs().ran_dry(), 2);
+}
+
 /// Whether the player was told that nothing is heard, or that it is heard again.
 async fn told(control: &ActorRef<Sound>) -> Option<bool> {
     for _ in 0..2000 {

@@ -62,6 +62,12 @@ impl Speaker {
         }
     }
 
+    /// The callback came too late.
+    pub fn run_dry(&self) {
+        let state = self.0.lock().unwrap();
+        state.callback.as_ref().unwrap().counters().note_xrun();
+    }
+
     pub fn plug(&self) {
         self.0.lock().unwrap().is_plugged = true;
     }
