@@ -7,7 +7,7 @@ use crate::error::Error;
 use hapticbillard::scene::{FILE_BYTES_MAX, Scene};
 use hapticbillard::shipped;
 use std::fs::{self, File};
-use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Component, Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -212,10 +212,20 @@ pub fn peak_memory_kib(status: &str) -> Option<u64> {
     line.split_whitespace().nth(1)?.parse().ok()
 }
 
-/// The names of what is in a folder; none if it cannot be read.
+/// The names of what is in a folder, in order; none if it cannot be read.
 pub fn names_in(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect()
+    list(folder).unwrap_or_default()
+}
+
+/// The same.
+///
+/// # Errors
+/// [`io::Error`] if the folder cannot be read.
+pub fn list(folder: &Path) -> io::Result<Vec<String>> {
+    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into());
+    let mut names: Vec<String> = fs::read_dir(folder)?.map(name).collect::<io::Result<_>>()?;
+    names.sort();
+    Ok(names)
 }
 
 /// A file name for a recording that begins now; names sort by age.

@@ -78,7 +78,8 @@ pub enum NoSound {
     },
     /// A folder of recordings cannot be listed.
     #[error(
-        "the recordings in {} cannot be listed ({reason}); name a folder that is there", folder.display()
+        "the recordings in {} cannot be listed ({reason}); name a folder that is there",
+        folder.display()
     )]
     NoRecordings {
         /// Which.

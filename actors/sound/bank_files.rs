@@ -6,13 +6,12 @@
 
 use super::backend::NoSound;
 use crate::error::Error;
-use crate::files::read_bytes;
+use crate::files::{list, read_bytes};
 use audioadapter_buffers::direct::SequentialSlice;
 use hapticbillard::sound::{Bank, ClipName, NameError, RECORDING_S_MAX, RecordingError};
 use hound::{SampleFormat, WavReader, WavSpec, WavWriter};
 use rubato::{Fft, FixedSync, Resampler};
-use std::fs;
-use std::io::{self, Cursor};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -83,11 +82,12 @@ pub enum Reason {
 /// # Errors
 /// [`NoSound::NoRecordings`] if the folder cannot be listed.
 pub fn read_folder(folder: &Path, rate_hz: u32) -> Result<(Bank, Vec<Refused>), NoSound> {
-    let names = waves_in(folder).map_err(|problem| NoSound::NoRecordings {
+    let mut names = list(folder).map_err(|problem| NoSound::NoRecordings {
         folder: folder.to_path_buf(),
         reason: problem.to_string(),
     })?;
 
+    names.retain(|name| name.to_ascii_lowercase().ends_with(".wav"));
     let (mut bank, mut refused) = (Bank::default(), Vec::new());
     let mut read = 0;
     for name in names {
@@ -102,19 +102,6 @@ pub fn read_folder(folder: &Path, rate_hz: u32) -> Result<(Bank, Vec<Refused>), 
         }
     }
     Ok((bank, refused))
-}
-
-/// The names in a folder that end in `.wav`, in order.
-fn waves_in(folder: &Path) -> io::Result<Vec<String>> {
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder)? {
-        let name = entry?.file_name().to_string_lossy().into_owned();
-        if name.to_ascii_lowercase().ends_with(".wav") {
-            names.push(name);
-        }
-    }
-    names.sort();
-    Ok(names)
 }
 
 /// Adds one file to a bank.

@@ -120,8 +120,8 @@ fn choose(device: &Device) -> Result<(SampleFormat, StreamConfig, bool), cpal::E
     Ok((range.sample_format(), config, takes_period))
 }
 
-/// The best of what a device offers, and its rate [Hz] nearest to the one that is asked for; none if
-/// nothing can be mixed for.
+/// The best of what a device offers, and its rate [Hz] nearest to the one that is asked for; none
+/// if nothing can be mixed for.
 fn best(
     ranges: impl Iterator<Item = SupportedStreamConfigRange>,
 ) -> Option<(SupportedStreamConfigRange, u32)> {

@@ -201,8 +201,8 @@ fn stream(open: &Open) -> Stream {
     Stream { now: open.counters.next(), period }
 }
 
-/// Says whether it got in. When the ring is full it is dropped: the stream stands still, or far more
-/// happens than can be heard.
+/// Says whether it got in. When the ring is full it is dropped: the stream stands still, or far
+/// more happens than can be heard.
 fn tell(open: &mut Open, due: Due) -> bool {
     let is_in = open.tell.push(due).is_ok();
     if !is_in {

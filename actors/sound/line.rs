@@ -3,7 +3,8 @@
 //! Opening may take long, and a driver may hang in it; so it happens here and nowhere else.
 //!
 //! A device that goes as soon as it comes is not worth a message each time: after a stream that
-//! lived shortly, the next one plays silence until it has lived longer, and only then is it told of.
+//! lived shortly, the next one plays silence until it has lived longer, and only then is it told
+//! of.
 
 use super::backend::{Backend, NoSound, Playing};
 use super::callback::{Callback, Counters, Due, Loss};
