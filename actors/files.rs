@@ -55,12 +55,12 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 /// The same for what is not in memory at once: `write` does it.
 pub fn write_whole_by(
     path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), Error> {
     let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
     let name = path
         .file_name()
-        .ok_or_else(|| failed(std::io::Error::other("the path names no file")))?
+        .ok_or_else(|| failed(io::Error::other("the path names no file")))?
         .to_string_lossy();
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
@@ -110,7 +110,7 @@ impl LineWriter {
         let failed = |reason| Error::Write { path: draft.clone(), reason };
         let mut file = File::options().write(true).open(&draft).map_err(failed)?;
         if file.metadata().map_err(failed)?.len() < length {
-            return Err(failed(std::io::Error::other("what was written is no longer there")));
+            return Err(failed(io::Error::other("what was written is no longer there")));
         }
         file.set_len(length).and_then(|()| file.seek(SeekFrom::End(0))).map_err(failed)?;
         Ok(LineWriter { file, draft, path })
