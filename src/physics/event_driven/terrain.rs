@@ -378,47 +378,34 @@ impl Terrain {
             }
         }
         for number in lists.corners {
-            let point = self.corners[*number as usize].point;
-            let offset = centre - point;
+            let corner = Feature::Corner(*number);
+            let offset = centre - self.corners[*number as usize].point;
             // Beside an edge that ends here, the edge is nearer: a third point would hold a ball
             // that is free to turn about two.
-            if offset.length_squared() <= reach_square
-                && !found.iter().any(|(at, ..)| self.ends_in(*at, point))
-            {
-                note(
-                    &mut found,
-                    Feature::Corner(*number),
-                    offset.normalize_or(DVec3::Z),
-                    offset.length(),
-                );
+            let ends = |(at, ..): &(Feature, DVec3, f64)| {
+                matches!(at, Feature::Edge(_)) && self.belongs(corner, *at)
+            };
+            if offset.length_squared() <= reach_square && !found.iter().any(ends) {
+                note(&mut found, corner, offset.normalize_or(DVec3::Z), offset.length());
             }
         }
         found
     }
 
-    /// Leaves out of a list of contacts the borders of what else is in it: where the foot of a ball
-    /// lies inside of a face its edges are farther away, by less than what counts as touching only
-    /// because the foot is near them; and so are the ends of an edge. The ball turns from one to
-    /// the other in one contact, not in two.
+    /// Leaves out of a list of contacts the borders of the faces in it: where the foot of a ball
+    /// lies inside of a face its edges and corners are farther away, by less than what counts as
+    /// touching only because the foot is near them. The ball turns from one to the other in one
+    /// contact, not in two.
     pub fn leave_out_borders(&self, contacts: &mut SmallVec<[(Feature, DVec3, f64); 4]>) {
         if contacts.len() < 2 {
             return;
         }
-        let of = |border: Feature, inner: Feature| match (border, inner) {
-            (Feature::Edge(_) | Feature::Corner(_), Feature::Patch(_))
-            | (Feature::Corner(_), Feature::Edge(_)) => self.belongs(border, inner),
-            _ => false,
+        let of = |border: Feature, inner: Feature| {
+            let can = matches!(border, Feature::Edge(_) | Feature::Corner(_));
+            can && matches!(inner, Feature::Patch(_)) && self.belongs(border, inner)
         };
         let all = contacts.clone();
         contacts.retain(|(feature, _, _)| !all.iter().any(|(other, _, _)| of(*feature, *other)));
-    }
-
-    /// Whether this is an edge with an end at a point [m].
-    fn ends_in(&self, feature: Feature, point: DVec3) -> bool {
-        let Feature::Edge(number) = feature else { return false };
-        let edge = &self.edges[number as usize];
-        let ends = [edge.from, edge.from + edge.along * edge.length_m];
-        ends.iter().any(|end| end.distance_squared(point) < SEAM_M * SEAM_M)
     }
 
     /// What a ball that the main patch carries has in reach, if it is as large as the largest.
