@@ -114,15 +114,7 @@ pub fn cushion_and_bed(
     cloth: Contact,
     parameters: &Parameters,
 ) -> (Impact, Impact) {
-    match parameters.cushion_law {
-        CushionLaw::Mathavan2010 => {
-            let bed = Bed { normal: support, friction: cloth.friction };
-            mathavan_2010::bounce(ball, normal, bed, contact)
-        }
-        CushionLaw::Combined | CushionLaw::Han2005 => {
-            cushion::bounce(ball, normal, support, contact, cloth)
-        }
-    }
+    cushion_and_bed_by(cushion::bounce, ball, normal, support, contact, cloth, parameters)
 }
 
 /// The same, equal but for rounding, by [`cushion::bounce_directly`]. The stepper keeps to the
@@ -135,12 +127,27 @@ pub fn cushion_and_bed_directly(
     cloth: Contact,
     parameters: &Parameters,
 ) -> (Impact, Impact) {
+    let combined = cushion::bounce_directly;
+    cushion_and_bed_by(combined, ball, normal, support, contact, cloth, parameters)
+}
+
+/// The same, with a way to solve the combined law.
+fn cushion_and_bed_by(
+    combined: impl Fn(&mut Mover, DVec3, DVec3, Contact, Contact) -> (Impact, Impact),
+    ball: &mut Mover,
+    normal: DVec3,
+    support: DVec3,
+    contact: Contact,
+    cloth: Contact,
+    parameters: &Parameters,
+) -> (Impact, Impact) {
     match parameters.cushion_law {
         CushionLaw::Mathavan2010 => {
-            cushion_and_bed(ball, normal, support, contact, cloth, parameters)
+            let bed = Bed { normal: support, friction: cloth.friction };
+            mathavan_2010::bounce(ball, normal, bed, contact)
         }
         CushionLaw::Combined | CushionLaw::Han2005 => {
-            cushion::bounce_directly(ball, normal, support, contact, cloth)
+            combined(ball, normal, support, contact, cloth)
         }
     }
 }
