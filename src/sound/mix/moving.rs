@@ -286,10 +286,7 @@ impl Mover {
             if let Some(leaving) = &mut self.leaving {
                 let mut old = [0.0; BLOCK];
                 leaving[ear].hear(&self.line, from, &mut old[..frames]);
-                for (new, old) in heard.iter_mut().zip(old) {
-                    let share = arriving.next();
-                    *new = old * (1.0 - share) + *new * share;
-                }
+                arriving.cross(&old, heard);
             }
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
         }

@@ -41,6 +41,15 @@ impl Ramp {
         self.now
     }
 
+    /// From what leaves to what arrives in its place, frame by frame: at 1 nothing is left of the
+    /// old.
+    pub fn cross(&mut self, leaving: &[f32], arriving: &mut [f32]) {
+        for (new, old) in arriving.iter_mut().zip(leaving) {
+            let share = self.next();
+            *new = *old * (1.0 - share) + *new * share;
+        }
+    }
+
     /// Multiplies a run of frames.
     pub fn apply(&mut self, samples: &mut [f32]) {
         if self.left == 0 {

@@ -184,10 +184,7 @@ impl Sound {
                 let mut old = [0.0; BLOCK];
                 let old = &mut old[..frames];
                 leaving[ear].hear(line, self.at, from, old);
-                for (new, old) in heard.iter_mut().zip(old) {
-                    let share = arriving.next();
-                    *new = *old * (1.0 - share) + *new * share;
-                }
+                arriving.cross(old, heard);
             }
             sum.iter_mut().zip(heard).for_each(|(sum, x)| *sum += *x);
         }
