@@ -25,6 +25,8 @@ pub use choose::{Outlook, call, choose};
 mod place;
 pub use place::{placements, zone_holds};
 
+mod insight;
+
 mod learn;
 pub use learn::AimLearner;
 

@@ -6,6 +6,7 @@
 
 mod build;
 mod check;
+mod entrant;
 mod error;
 mod overrides;
 mod plan;
@@ -14,6 +15,7 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use entrant::{Entrant, NoEntrant};
 pub use error::SceneError;
 pub use overrides::Overrides;
 pub use plan::{PlanKind, PlanLine};

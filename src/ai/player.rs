@@ -5,6 +5,7 @@
 //! not happen in time is tried again.
 
 use super::choose::{Outlook, call, choose};
+use super::insight;
 use super::place::placements;
 use super::plan::{Goal, Plan, plan_shot};
 use super::speed::BALL_PER_TIP_SPEED;
@@ -353,6 +354,8 @@ impl Player {
         let goal = Goal::of(&turn, &view, self.played_from);
         let mut plan = plan_shot(&view, cue_ball, &goal, self.settings.throw_factor, &mut self.rng);
         let stroke = self.stroke_for(&mut plan, &view);
+        let told = insight::of_plan(self.id, &plan, &view);
+        out.publish.push(Event::Insight(Arc::new(told)).into());
         // It is heard long before the tip has come to the ball.
         if let Some(call) = call(&plan, turn.calls) {
             command(Command::Call(call), out);

@@ -118,7 +118,7 @@ impl Scoreboard {
                 self.call = Some(call.clone()).filter(|call| *call != NOTHING);
             }
             Event::Command(Command::Undo) => self.verdict = None,
-            Event::Command(_) | Event::Menu(_) => {}
+            Event::Command(_) | Event::Menu(_) | Event::Insight(_) => {}
         }
     }
 
