@@ -19,6 +19,21 @@ pub use plan::{
 
 mod fallback;
 
+mod ideas;
+pub use ideas::{Idea, IdeaKind, Repertoire, ideas};
+
+mod mind;
+pub use mind::{
+    Considered, Decision, Deliberation, Inline, Mind, Outcome, PlannedShot, Task, TaskKind,
+    Thoughts, Workers,
+};
+
+mod noise;
+pub use noise::StrokeNoise;
+
+mod thinker;
+pub use thinker::{ThinkInline, Thinker, Thinking};
+
 mod choose;
 pub use choose::{Outlook, call, choose};
 
@@ -26,6 +41,7 @@ mod place;
 pub use place::{placements, zone_holds};
 
 mod insight;
+pub use insight::{insight_of_plan, insight_of_thoughts};
 
 mod learn;
 pub use learn::AimLearner;

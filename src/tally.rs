@@ -28,6 +28,9 @@ pub struct Tally {
     pub shots: [u32; 2],
     /// Shots that were fouls.
     pub fouls: [u32; 2],
+    /// Fouls of a computer player that had considered a shot which was no foul in any of its
+    /// simulations.
+    pub avoidable: [u32; 2],
     /// Object balls that fell.
     pub pots: [u32; 2],
     /// The winner cleared his group and the 8 in one visit to the table: eight balls or more.
@@ -71,6 +74,7 @@ struct Shot {
     is_break: bool,
     is_in_hand: bool,
     intent: Intent,
+    had_legal: bool,
     fell: Vec<(BallId, PocketId)>,
 }
 
@@ -112,6 +116,8 @@ impl Tally {
     }
 
     fn intend(&mut self, insight: &Insight) {
+        let mut others = insight.prospects.iter().filter(|prospect| !prospect.is_chosen);
+        self.shot.had_legal = others.any(|other| other.legal == Some(1.0));
         let Some(chosen) = insight.chosen() else { return };
         self.shot.intent = match (chosen.kind, chosen.pot()) {
             (ProspectKind::Break, _) => Intent::Unknown,
@@ -140,6 +146,7 @@ impl Tally {
         let pots = verdict.pocketed.len() as u32;
         self.shots[seat] += 1;
         self.fouls[seat] += u32::from(!verdict.legal);
+        self.avoidable[seat] += u32::from(!verdict.legal && shot.had_legal);
         self.pots[seat] += pots;
         self.breaks[seat] += u32::from(shot.is_break);
         match shot.intent {
@@ -297,13 +304,15 @@ mod tests {
             ball: Some(BallId(3)),
             pocket,
             ghost: DVec2::ZERO,
-            course: SmallVec::new(),
+            ways: SmallVec::new(),
             chance: None,
+            legal: None,
             value: None,
             samples: 0,
             is_chosen: true,
         };
-        let other = Prospect { is_chosen: false, ball: Some(BallId(7)), ..chosen.clone() };
+        let (ball, legal) = (Some(BallId(7)), Some(1.0));
+        let other = Prospect { is_chosen: false, ball, legal, ..chosen.clone() };
         Some(Event::Insight(Arc::new(Insight {
             player: PlayerId::ONE,
             cue_ball: DVec2::ZERO,
@@ -317,6 +326,15 @@ mod tests {
         check_intent(thought(ProspectKind::Bank, Some(PocketId::Fl)), true, [1, 1, 0]);
         check_intent(thought(ProspectKind::Contact, None), true, [0, 0, 1]);
         check_intent(thought(ProspectKind::Break, None), true, [0, 0, 0]);
+    }
+
+    #[test]
+    fn a_foul_is_avoidable_if_another_shot_was_never_one() {
+        let foul = || verdict(false, TurnAfter::Pass, None);
+        let tally = told(Turn::default(), thought(ProspectKind::Pot, None), &[], foul());
+        assert_eq!((tally.fouls[0], tally.avoidable[0]), (1, 1));
+        let tally = told(Turn::default(), call(3, PocketId::Fl), &[], foul());
+        assert_eq!((tally.fouls[0], tally.avoidable[0]), (1, 0));
     }
 
     #[test]

@@ -37,6 +37,8 @@ What is counted:
   break and run  racks won in the visit that began with the break, of all breaks
   from hand      visits begun with the cue ball in hand anywhere that won the rack
   safeties       shots meant to pocket nothing
+  avoidable      fouls although the player had considered a shot that was none in any simulation;
+                 paper does not simulate
 Intervals are Wilson's at 95 % (1927), of decided racks. --until P ends a pairing when Wald's
 sequential test (1945) decides whether its first player wins P of the decided racks: P - d against
 P + d, with d = min(0.05, (1 - P) / 2) and 5 % errors either way. Unlike an interval, the test may be

@@ -1,21 +1,15 @@
 //! What a player tells whoever wants to see it think (paper, figure 5.2).
 
+use super::ideas::IdeaKind;
+use super::mind::{Considered, Thoughts};
 use super::plan::{Line, LineEnd, Plan, PlanKind};
-use super::view::TableView2d;
 use crate::events::{Insight, Prospect, ProspectKind, Way, WayEnd};
 use crate::ids::PlayerId;
-use smallvec::{SmallVec, smallvec};
+use glam::DVec2;
 
 /// What the paper's player had in mind: all ways, and the one shot that cost least. It reckons with
 /// costs and knows no chances.
-pub fn of_plan(player: PlayerId, plan: &Plan, view: &TableView2d) -> Insight {
-    let ends = plan.lines.iter().find(|line| {
-        line.chosen && matches!(line.end, LineEnd::Pocket(_, pocket) if Some(pocket) == plan.pocket)
-    });
-    let course: SmallVec<_> = match (ends, plan.target.and_then(|ball| view.position(ball))) {
-        (Some(line), Some(ball)) => smallvec![ball, line.to],
-        _ => SmallVec::new(),
-    };
+pub fn insight_of_plan(player: PlayerId, plan: &Plan) -> Insight {
     let chosen = Prospect {
         kind: match plan.kind {
             PlanKind::Pot => ProspectKind::Pot,
@@ -27,8 +21,9 @@ pub fn of_plan(player: PlayerId, plan: &Plan, view: &TableView2d) -> Insight {
         ball: plan.target,
         pocket: plan.pocket,
         ghost: plan.ghost,
-        course,
+        ways: plan.lines.iter().filter(|line| line.chosen).map(way).collect(),
         chance: None,
+        legal: None,
         value: None,
         samples: 0,
         is_chosen: true,
@@ -38,6 +33,41 @@ pub fn of_plan(player: PlayerId, plan: &Plan, view: &TableView2d) -> Insight {
         cue_ball: plan.cue_ball,
         ways: plan.lines.iter().map(way).collect(),
         prospects: vec![chosen],
+    }
+}
+
+/// What a searching player had in mind, for a cue ball at `cue_ball` [m].
+pub fn insight_of_thoughts(player: PlayerId, cue_ball: DVec2, thoughts: &Thoughts) -> Insight {
+    Insight {
+        player,
+        cue_ball,
+        ways: thoughts.lines.iter().map(way).collect(),
+        prospects: thoughts.candidates.iter().map(prospect).collect(),
+    }
+}
+
+fn prospect(considered: &Considered) -> Prospect {
+    let idea = &considered.idea;
+    Prospect {
+        kind: match idea.kind {
+            IdeaKind::Pot => ProspectKind::Pot,
+            IdeaKind::Combination => ProspectKind::Combination,
+            IdeaKind::Bank => ProspectKind::Bank,
+            IdeaKind::Kick => ProspectKind::Kick,
+            IdeaKind::Carom => ProspectKind::Carom,
+            IdeaKind::Contact => ProspectKind::Contact,
+            IdeaKind::Break => ProspectKind::Break,
+            IdeaKind::Desperate => ProspectKind::Desperate,
+        },
+        ball: idea.ball.or(idea.first),
+        pocket: idea.pocket,
+        ghost: idea.ghost,
+        ways: idea.lines.iter().map(way).collect(),
+        chance: Some(considered.success),
+        legal: Some(considered.legal),
+        value: Some(considered.value),
+        samples: considered.samples,
+        is_chosen: considered.chosen,
     }
 }
 

@@ -5,7 +5,8 @@
 //! not happen in time is tried again.
 
 use super::choose::{Outlook, call, choose};
-use super::insight;
+use super::insight::insight_of_plan;
+use super::noise::StrokeNoise;
 use super::place::placements;
 use super::plan::{Goal, Plan, plan_shot};
 use super::speed::BALL_PER_TIP_SPEED;
@@ -51,10 +52,6 @@ const CLOTH_RESTITUTION: f64 = 0.5;
 /// Fastest upward speed of a cue ball that is struck with a raised cue [m/s]: it hops 18 mm, so it
 /// does not jump over the ball that it shall meet.
 const HOP_SPEED_M_S: f64 = 0.6;
-/// Standard deviations of a Computer Pool Olympiad stroke: tip offset [m], elevation [rad],
-/// azimuth [rad], speed [m/s].
-const OLYMPIAD_NOISE: (f64, f64, f64, f64) = (0.0005, 0.1 * DEGREE, 0.125 * DEGREE, 0.075);
-
 /// How a player knows how steep the cue must be held to pass over the rails [rad], for a cue ball
 /// at a place [m] and an azimuth [rad].
 pub type Clearance = Arc<dyn Fn(DVec2, f64) -> f64 + Send + Sync>;
@@ -354,7 +351,7 @@ impl Player {
         let goal = Goal::of(&turn, &view, self.played_from);
         let mut plan = plan_shot(&view, cue_ball, &goal, self.settings.throw_factor, &mut self.rng);
         let stroke = self.stroke_for(&mut plan, &view);
-        let told = insight::of_plan(self.id, &plan, &view);
+        let told = insight_of_plan(self.id, &plan);
         out.publish.push(Event::Insight(Arc::new(told)).into());
         // It is heard long before the tip has come to the ball.
         if let Some(call) = call(&plan, turn.calls) {
@@ -385,15 +382,9 @@ impl Player {
         let hop_limit = HOP_SPEED_M_S / (CLOTH_RESTITUTION * BALL_PER_TIP_SPEED * sin);
         plan.speed_m_s = (plan.speed_m_s / cos).min(hop_limit);
 
-        if self.settings.noise > 0.0 {
-            let (offset, elevation, azimuth, speed) = OLYMPIAD_NOISE;
-            let mut error = |sigma: f64| self.settings.noise * sigma * normal(&mut self.rng);
-            aim.side_offset += error(offset / self.ball_radius_m);
-            aim.height_offset += error(offset / self.ball_radius_m);
-            aim.elevation_rad = (aim.elevation_rad + error(elevation)).max(0.0);
-            aim.azimuth_rad += error(azimuth);
-            plan.speed_m_s = (plan.speed_m_s + error(speed)).max(0.1);
-        }
+        let noise = StrokeNoise::olympiad(self.settings.noise);
+        let (aim, speed_m_s) = noise.err(aim, plan.speed_m_s, self.ball_radius_m, &mut self.rng);
+        plan.speed_m_s = speed_m_s;
         let centre = plan.cue_ball.extend(self.ball_radius_m);
         Stroke::at_ball(aim.limited(), centre, self.ball_radius_m, plan.speed_m_s)
     }
@@ -531,11 +522,4 @@ fn command(command: Command, out: &mut Outcome) {
 
 fn move_cue(path: CuePath, out: &mut Outcome) {
     command(Command::MoveCue(Arc::new(path)), out);
-}
-
-/// A number from the standard normal distribution (Box and Muller 1958).
-fn normal(rng: &mut Pcg64Mcg) -> f64 {
-    let (u, angle): (f64, f64) = (rng.random(), rng.random());
-    // 1 − u lies in (0, 1], so that the logarithm exists.
-    (-2.0 * libm::log(1.0 - u)).sqrt() * libm::cos(std::f64::consts::TAU * angle)
 }

@@ -84,10 +84,12 @@ pub struct Prospect {
     pub pocket: Option<PocketId>,
     /// The middle of the cue ball when it meets its first ball [m].
     pub ghost: DVec2,
-    /// The way of the ball that shall fall, from where it lies to the pocket [m]; else nothing.
-    pub course: SmallVec<[DVec2; 4]>,
+    /// The ways of its balls.
+    pub ways: SmallVec<[Way; 4]>,
     /// The chance to succeed under the player's own noise, 0 to 1; none if it was not estimated.
     pub chance: Option<f64>,
+    /// The chance that it is no foul, 0 to 1; none if it was not estimated.
+    pub legal: Option<f64>,
     /// What the shot is worth to the player, the larger the better; none if it was not estimated.
     pub value: Option<f64>,
     /// How often it was simulated.

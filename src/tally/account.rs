@@ -18,6 +18,8 @@ pub struct Account {
     pub shots: u32,
     /// Shots that were fouls.
     pub fouls: u32,
+    /// Fouls although the player had considered a shot that was none in any of its simulations.
+    pub avoidable: u32,
     /// Object balls that fell.
     pub pots: u32,
     /// Shots that were meant to pocket a ball.
@@ -49,6 +51,7 @@ impl Account {
             losses: u32::from(tally.winner.is_some() && !won),
             shots: tally.shots[seat],
             fouls: tally.fouls[seat],
+            avoidable: tally.avoidable[seat],
             pots: tally.pots[seat],
             aimed: tally.aimed[seat],
             made: tally.made[seat],
@@ -89,6 +92,7 @@ impl AddAssign for Account {
         self.losses += other.losses;
         self.shots += other.shots;
         self.fouls += other.fouls;
+        self.avoidable += other.avoidable;
         self.pots += other.pots;
         self.aimed += other.aimed;
         self.made += other.made;

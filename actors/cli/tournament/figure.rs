@@ -36,6 +36,7 @@ pub fn wins(outcomes: &[Outcome]) -> Result<String, Error> {
         chart
             .configure_mesh()
             .x_desc("share of the decided racks [%], with Wilson's 95 % interval")
+            .x_label_formatter(&|x| format!("{x:.0}"))
             .y_labels(0)
             .disable_y_mesh()
             .light_line_style(WHITE)
@@ -137,6 +138,7 @@ fn panel(area: &Area<'_>, title: &str, curves: &[Curve]) -> Result<(), Error> {
         .configure_mesh()
         .x_desc("noise of the strokes, 1 is the Computer Pool Olympiad's")
         .x_label_formatter(&|x| format!("{x:.1}"))
+        .y_label_formatter(&|y| format!("{y:.0}"))
         .light_line_style(WHITE)
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 14))

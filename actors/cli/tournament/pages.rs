@@ -96,6 +96,7 @@ fn players(standings: &[Standing], is_timed: bool) -> Table {
         "break and run %",
         "from hand %",
         "fouls/rack",
+        "avoidable",
         "safeties/rack",
     ];
     if is_timed {
@@ -122,6 +123,7 @@ fn players(standings: &[Standing], is_timed: bool) -> Table {
             of(account.break_and_run(), account.breaks),
             of(account.run_out_from_hand(), account.in_hand),
             per_rack(account.fouls),
+            account.avoidable.to_string(),
             per_rack(account.safeties),
         ];
         if is_timed {

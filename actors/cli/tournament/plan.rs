@@ -68,7 +68,12 @@ impl Plan {
             let pairs = pairs.iter().copied().zip(tests);
             pairs.map(move |(players, until)| Match { players, noise, until }).collect::<Vec<_>>()
         };
-        let matches = args.noise.iter().flat_map(|noise| of_noise(*noise)).collect();
+        let all = args.noise.iter().flat_map(|noise| of_noise(*noise));
+        // Two who bring their own noise play the same racks at any other.
+        let is_new = |game: &Match| {
+            game.noise == args.noise[0] || game.players.iter().any(|player| player.noise.is_none())
+        };
+        let matches = all.filter(is_new).collect();
         Ok(Plan { players, matches, racks: args.racks })
     }
 
