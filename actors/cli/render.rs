@@ -125,11 +125,14 @@ fn stage(args: &RenderArgs) -> Result<(Stage, Option<Recording>), Error> {
 /// The eye.
 #[cfg(feature = "renderer")]
 fn eye(args: &RenderArgs, stage: &Stage) -> CameraPose {
-    let above = || CameraPose::above(stage.table.bed.map_or(2.54, |bed| bed.length_m));
-    match args.from {
-        Some(Eye::Above) => above(),
-        None if args.thoughts.is_some() => above(),
-        Some(Eye::Head) | None => CameraPose::default(),
+    let length_m = stage.table.bed.map_or(2.54, |bed| bed.length_m);
+    let above = CameraPose::above(length_m);
+    // Beside the table is room for what is written about thoughts.
+    let aside = above.aside(0.165 * length_m);
+    match (args.from, args.thoughts) {
+        (Some(Eye::Above) | None, Some(_)) => aside,
+        (Some(Eye::Above), None) => above,
+        (Some(Eye::Head), _) | (None, None) => CameraPose::default(),
     }
 }
 

@@ -31,13 +31,21 @@ impl Default for CameraPose {
 /// [m].
 const ASIDE_M: f64 = 0.02;
 /// How high it is, in lengths of the bed: high enough for a picture that is wider than high.
-const ABOVE_LENGTHS: f64 = 0.94;
+const ABOVE_LENGTHS: f64 = 1.1;
 
 impl CameraPose {
     /// The whole of a table with a bed of this length [m] from above; its head is on the left.
     pub fn above(length_m: f64) -> Self {
         let eye = DVec3::new(0.0, -ASIDE_M, ABOVE_LENGTHS * length_m);
         CameraPose { eye, target: DVec3::ZERO, ..CameraPose::default() }
+    }
+
+    /// The same, with everything so far to the left in the picture [m].
+    #[must_use]
+    pub fn aside(self, by_m: f64) -> Self {
+        let ahead = (self.target - self.eye).normalize_or_zero();
+        let by = ahead.cross(DVec3::Z).normalize_or_zero() * by_m;
+        CameraPose { eye: self.eye + by, target: self.target + by, ..self }
     }
 
     /// Where a point of the world [m] is in a picture of this width by height: from its left and

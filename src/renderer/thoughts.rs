@@ -115,8 +115,8 @@ fn draw_way(way: &Way, is_within_reach: bool, list: &mut DrawList) {
         (true, true) => solid(way, FREE, 0.7, HALF_WIDTH_M[0], list),
         // Nobody can use it now.
         (true, false) => solid(way, FREE, 0.22, HALF_WIDTH_M[0], list),
-        (false, true) => dashed(way, BLOCKED, 0.62, list),
-        (false, false) => dashed(way, BLOCKED, 0.28, list),
+        (false, true) => dashed(way, BLOCKED, 0.8, list),
+        (false, false) => dashed(way, BLOCKED, 0.4, list),
     }
 }
 
