@@ -19,13 +19,16 @@ pub use plan::{
 
 mod fallback;
 
+mod hold;
+pub use hold::Clearance;
+
 mod ideas;
-pub use ideas::{Idea, IdeaKind, Repertoire, ideas};
+pub use ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 
 mod mind;
 pub use mind::{
-    Considered, Decision, Deliberation, Inline, Mind, Outcome, PlannedShot, Task, TaskKind,
-    Thoughts, Workers,
+    Considered, Decision, Deliberation, Inline, Mind, MindSetup, Outcome, PlannedShot, Task,
+    TaskKind, Thoughts, Workers,
 };
 
 mod noise;
@@ -50,4 +53,4 @@ mod stroke;
 pub use stroke::{Stroke, approach, resting_pose, withdrawal};
 
 mod player;
-pub use player::{Clearance, Level, Player, PlayerSettings};
+pub use player::{Level, Player, PlayerSettings};

@@ -3,8 +3,10 @@
 use super::noise::StrokeNoise;
 use super::plan::{Goal, Line};
 use super::view::TableView2d;
+use crate::events::Zone;
 use crate::ids::{BallId, PocketId};
 use glam::DVec2;
+use rand::Rng;
 use smallvec::SmallVec;
 
 /// What sort of shot an idea is.
@@ -80,5 +82,16 @@ pub fn ideas(
     _noise: &StrokeNoise,
     _repertoire: Repertoire,
 ) -> Vec<Idea> {
+    Vec::new()
+}
+
+/// Places for a cue ball in hand in `zone`, best first [m]; all have room.
+pub fn spots(
+    _view: &TableView2d,
+    _zone: Zone,
+    _goal: &Goal,
+    _noise: &StrokeNoise,
+    _rng: &mut impl Rng,
+) -> Vec<DVec2> {
     Vec::new()
 }

@@ -5,14 +5,14 @@
 //! not happen in time is tried again.
 
 use super::choose::{Outlook, call, choose};
+use super::hold::{self, Clearance};
 use super::insight::insight_of_plan;
 use super::noise::StrokeNoise;
 use super::place::placements;
 use super::plan::{Goal, Plan, plan_shot};
-use super::speed::BALL_PER_TIP_SPEED;
 use super::stroke::{Stroke, approach, resting_pose, withdrawal};
 use super::view::TableView2d;
-use crate::cue::{Aim, CuePath, elevation_over_balls};
+use crate::cue::{Aim, CuePath};
 use crate::events::{
     Choice, Command, Event, FactKind, PlayerReport, PlayerState, Source, Topic, Topics, Turn,
     TurnAfter, Zone,
@@ -29,8 +29,6 @@ use rand_pcg::Pcg64Mcg;
 use std::fmt;
 use std::sync::Arc;
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
-
 /// The pause before a turn [ticks].
 const LAZING_TICKS: std::ops::RangeInclusive<u64> = 400..=1200;
 /// How long the answer to a placement may take [ticks].
@@ -43,25 +41,16 @@ const CONTACT_TICKS: u64 = 3;
 const REAIMS: u32 = 3;
 /// The longest that a shot is watched [ticks]: two minutes.
 const ANALYZING_TICKS: u64 = 120_000;
-/// The lowest butt [rad]: the hand needs room above the cloth.
-const ELEVATION_MIN_RAD: f64 = 2.0 * DEGREE;
-/// The highest [rad].
-const ELEVATION_MAX_RAD: f64 = 60.0 * DEGREE;
-/// Restitution of a ball on the cloth that the player reckons with.
-const CLOTH_RESTITUTION: f64 = 0.5;
-/// Fastest upward speed of a cue ball that is struck with a raised cue [m/s]: it hops 18 mm, so it
-/// does not jump over the ball that it shall meet.
-const HOP_SPEED_M_S: f64 = 0.6;
-/// How a player knows how steep the cue must be held to pass over the rails [rad], for a cue ball
-/// at a place [m] and an azimuth [rad].
-pub type Clearance = Arc<dyn Fn(DVec2, f64) -> f64 + Send + Sync>;
-
 /// How well a computer plays.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     /// As the paper's: geometry from above, no look into the future.
     #[default]
     Paper,
+    /// Simulates the few best shots.
+    Club,
+    /// Searches.
+    Champion,
 }
 
 /// What distinguishes one computer player from another.
@@ -371,17 +360,9 @@ impl Player {
     /// the settings ask for.
     fn stroke_for(&mut self, plan: &mut Plan, view: &TableView2d) -> Stroke {
         let mut aim = Aim::along(plan.direction);
-        let others = view.balls.iter().map(|ball| ball.position);
-        let over_balls =
-            elevation_over_balls(plan.cue_ball, plan.direction, others, self.ball_radius_m);
         let over_rail = (self.clearance)(plan.cue_ball, aim.azimuth_rad);
-        aim.elevation_rad = over_balls.max(over_rail).clamp(ELEVATION_MIN_RAD, ELEVATION_MAX_RAD);
-
-        // Only the horizontal part drives the ball along; what presses it down makes it hop.
-        let (sin, cos) = libm::sincos(aim.elevation_rad);
-        let hop_limit = HOP_SPEED_M_S / (CLOTH_RESTITUTION * BALL_PER_TIP_SPEED * sin);
-        plan.speed_m_s = (plan.speed_m_s / cos).min(hop_limit);
-
+        aim.elevation_rad = hold::elevation(view, plan.cue_ball, plan.direction, over_rail);
+        plan.speed_m_s = hold::tip_speed(plan.speed_m_s, aim.elevation_rad);
         let noise = StrokeNoise::olympiad(self.settings.noise);
         let (aim, speed_m_s) = noise.err(aim, plan.speed_m_s, self.ball_radius_m, &mut self.rng);
         plan.speed_m_s = speed_m_s;
