@@ -180,7 +180,8 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
                 };
                 writeln!(
                     out,
-                    "game {:>3}: {winner}; shots {a}-{b}, fouls {c}-{d}, balls {e}-{f}{clear}{took}",
+                    "game {:>3}: {winner}; shots {a}-{b}, fouls {c}-{d}, balls \
+                     {e}-{f}{clear}{took}",
                     game + 1
                 )?;
             }

@@ -41,8 +41,8 @@ What is counted:
                  paper does not simulate
 Intervals are Wilson's at 95 % (1927), of decided racks. --until P ends a pairing when Wald's
 sequential test (1945) decides whether its first player wins P of the decided racks: P - d against
-P + d, with d = min(0.05, (1 - P) / 2) and 5 % errors either way. Unlike an interval, the test may be
-looked at after each rack.
+P + d, with d = min(0.05, (1 - P) / 2) and 5 % errors either way. Unlike an interval, the test may
+be looked at after each rack.
 
 Examples:
   hapticbillard tournament --players paper@0,paper@1,paper@5 --racks 50

@@ -1,5 +1,5 @@
-//! A player's thoughts over the picture (paper, figure 5.2): which ways are free, which are blocked,
-//! and what each shot that was considered promises.
+//! A player's thoughts over the picture (paper, figure 5.2): which ways are free, which are
+//! blocked, and what each shot that was considered promises.
 //!
 //! Free ways are whole lines, blocked ones dashed: colours alone would not do. They are Okabe and
 //! Ito's (2008), which colour-blind eyes can tell, and stand out from green cloth.

@@ -166,7 +166,6 @@ fn chances_stand_on_the_table_and_their_panel_beside_it() {
     ) else {
         return;
     };
-        .unwrap();
     let differ = |x: u32, y: u32| at(&with, x, y) != at(&without, x, y);
     // Where the label of the 3 stands, by the same perspective as everything on the table.
     let [x, y, z] = list.labels.iter().find(|label| label.is_bold).unwrap().at.map(f64::from);

@@ -19,7 +19,8 @@ fn of<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
 #[test]
 fn a_pairing_is_the_match_of_its_players_rack_by_rack() {
     let seed = ["--seed", "5", "--json"];
-    let tournament = json(&[&["tournament", "--players", PLAYERS, "--racks", "4"], &seed[..]].concat());
+    let tournament =
+        json(&[&["tournament", "--players", PLAYERS, "--racks", "4"], &seed[..]].concat());
     let game = json(&[&["match", "--players", PLAYERS, "--games", "4"], &seed[..]].concat());
     let racks = of(&tournament, "rack");
     assert_eq!(racks.len(), 4);
@@ -129,8 +130,7 @@ fn thoughts_of_a_game_and_of_its_recording_are_one_picture() {
     }
     assert!(again.status.success(), "{again:?}");
     let seed = hapticbillard::cast::seed_of(3, 0).to_string();
-    let direct =
-        render(&["--scene", "eight_ball_headless", "--seed", &seed, "--out", &game]);
+    let direct = render(&["--scene", "eight_ball_headless", "--seed", &seed, "--out", &game]);
     assert!(direct.status.success(), "{direct:?}");
     assert_eq!(std::fs::read(&game).unwrap(), std::fs::read(&replayed).unwrap());
 
