@@ -116,3 +116,4 @@ impl Mind {
         lies.iter().filter_map(|state| Some((ball(state)?.clone(), *state))).collect()
     }
 }
+#[cfg(test)]
