@@ -116,4 +116,3 @@ impl Mind {
         lies.iter().filter_map(|state| Some((ball(state)?.clone(), *state))).collect()
     }
 }
-#[cfg(test)]
