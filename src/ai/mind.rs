@@ -13,11 +13,62 @@ pub use task::{Task, TaskKind};
 mod workers;
 pub use workers::{Inline, Workers};
 
+use super::noise::StrokeNoise;
+use super::settings::Level;
+use crate::ball::Ball;
+use crate::ids::GameKind;
+use crate::physics::Simulation;
+use crate::table::{Bed, Table};
+use crate::units::Seconds;
+use std::sync::Arc;
+
+/// What a mind is made of.
+#[derive(Debug, Clone)]
+pub struct MindSetup {
+    /// A simulation of the table, with the game's laws and any balls: the player's own copy.
+    pub simulation: Simulation,
+    /// The balls of the game.
+    pub balls: Vec<Ball>,
+    /// The table.
+    pub table: Arc<Table>,
+    /// Its playing area.
+    pub bed: Bed,
+    /// Radius of every ball [m].
+    pub ball_radius_m: f64,
+    /// Radius of the tip [m].
+    pub tip_radius_m: f64,
+    /// How long before a stroke a command must be given [s]: a step of the solver, or 0.
+    pub delay_s: Seconds,
+    /// What is played.
+    pub game: GameKind,
+    /// How far it looks.
+    pub level: Level,
+    /// How its strokes err, and what it reckons with.
+    pub noise: StrokeNoise,
+    /// Shots that it may simulate for a decision.
+    pub simulations: u32,
+}
+
 /// What a searching player knows besides the question that it is asked.
 #[derive(Debug)]
-pub struct Mind {}
+pub struct Mind {
+    setup: MindSetup,
+}
+
+impl std::ops::Deref for Mind {
+    type Target = MindSetup;
+
+    fn deref(&self) -> &MindSetup {
+        &self.setup
+    }
+}
 
 impl Mind {
+    /// A mind that has not thought yet.
+    pub fn new(setup: MindSetup) -> Self {
+        Mind { setup }
+    }
+
     /// Answers a question. The same question, mind and seed give the same answer, however many
     /// workers there are.
     pub fn deliberate(&self, _task: &Task, _workers: &dyn Workers) -> Deliberation {
