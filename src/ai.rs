@@ -26,7 +26,7 @@ mod hold;
 pub use hold::Clearance;
 
 mod ideas;
-pub use ideas::{Idea, IdeaKind, Repertoire, ideas};
+pub use ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 
 mod mind;
 pub use mind::{
