@@ -31,7 +31,7 @@ as it goes.
 Examples:
   hapticbillard match --games 100 --seed 1
   hapticbillard match --game wpa-eight-ball --games 20 --seed 1
-  hapticbillard match --games 10 --players paper,paper --noise 0.5 --json
+  hapticbillard match --games 10 --players champion,club --noise 0.5 --json
   hapticbillard match --games 3 --record games/";
 
 /// Plays games without a window, as fast as possible.
@@ -56,9 +56,9 @@ pub struct MatchArgs {
     pub seed: Option<u64>,
 
     /// Kinds of the two players, in place of the scene's; the first breaks in the first game.
-    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1,
-          value_parser = ["paper"])]
-    pub players: Vec<String>,
+    /// paper, club, champion, or a strength from 0 to 100.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1)]
+    pub players: Vec<PlayerKind>,
 
     /// Noise of both players' strokes, in multiples of their own, in place of the scene's.
     #[arg(long, value_name = "X", value_parser = not_negative)]
@@ -144,13 +144,13 @@ pub fn run(args: &MatchArgs, out: &mut dyn Write) -> Result<Status, Error> {
     }
     let kinds = match args.players.len() {
         0 => scene.players.iter().map(|player| player.kind).collect(),
-        _ => args.players.iter().map(|_| PlayerKind::Paper).collect::<Vec<_>>(),
+        _ => args.players.clone(),
     };
     if args.players.len() == 1 || args.players.len() > 2 {
         let problem = format!("{} players given", args.players.len());
         return Err(Error::input("--players", problem, "give two, such as paper,paper"));
     }
-    if kinds.iter().any(|kind| *kind != PlayerKind::Paper) {
+    if !kinds.iter().all(|kind| kind.is_computer()) {
         let fix = "add --players paper,paper, or play it in a window with `play`";
         return Err(Error::input(what, "a person plays in this scene", fix));
     }

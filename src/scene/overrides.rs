@@ -17,7 +17,7 @@ pub struct Overrides {
     pub first_player: Option<PlayerId>,
     /// Kinds of the players, by the names that scenes use; empty: the scene's own.
     pub players: Vec<PlayerKind>,
-    /// Noise of all computers' strokes.
+    /// Noise of all computers' strokes, in multiples of the Computer Pool Olympiad's.
     pub noise: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ impl Overrides {
             section.kind = *kind;
         }
         if let Some(noise) = self.noise {
-            scene.players.iter_mut().for_each(|section| section.noise = noise);
+            scene.players.iter_mut().for_each(|section| section.noise = Some(noise));
         }
     }
 }

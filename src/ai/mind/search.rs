@@ -10,7 +10,7 @@ use super::world::World;
 use super::{Mind, Outcome, Task, Workers};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
-use crate::ai::player::Level;
+use crate::ai::settings::Level;
 use crate::cast::seed_of;
 
 /// Hardest tip [m/s], but for a break.
