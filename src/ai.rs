@@ -19,6 +19,9 @@ pub use plan::{
 
 mod fallback;
 
+mod settings;
+pub use settings::{Level, NOISE_USUAL, PlayerSettings};
+
 mod hold;
 pub use hold::Clearance;
 
@@ -50,7 +53,7 @@ mod learn;
 pub use learn::AimLearner;
 
 mod stroke;
-pub use stroke::{Stroke, approach, resting_pose, withdrawal};
+pub use stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 
 mod player;
-pub use player::{Level, Player, PlayerSettings};
+pub use player::Player;

@@ -26,7 +26,7 @@ as it goes.
 Examples:
   hapticbillard match --games 100 --seed 1
   hapticbillard match --game wpa-eight-ball --games 20 --seed 1
-  hapticbillard match --games 10 --players paper,paper --noise 0.5 --json
+  hapticbillard match --games 10 --players champion,club --noise 0.5 --json
   hapticbillard match --games 3 --record games/";
 
 /// Plays games without a window, as fast as possible.

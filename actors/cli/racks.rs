@@ -4,7 +4,7 @@ use super::Driver;
 use hapticbillard::cast::seed_of;
 use hapticbillard::ids::{GameKind, PlayerId};
 use hapticbillard::rules;
-use hapticbillard::scene::{Entrant, Overrides, PlayerKind};
+use hapticbillard::scene::{Entrant, Overrides};
 use hapticbillard::tally::Tally;
 use hapticbillard::tick::Finished;
 use hapticbillard_actors::error::Error;
@@ -87,7 +87,7 @@ impl Racks<'_> {
     /// A person, or a recording, plays in the scene.
     pub fn check(&self) -> Result<(), Error> {
         let players = &self.stage_for(0).scene.players;
-        if players.iter().all(|player| player.kind == PlayerKind::Paper) {
+        if players.iter().all(|player| player.kind.is_computer()) {
             return Ok(());
         }
         let fix = "add --players paper,paper, or play it in a window with `play`";

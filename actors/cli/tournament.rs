@@ -26,9 +26,10 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
-A player is KIND or KIND@NOISE, with the noise of the strokes in multiples of the Computer Pool
-Olympiad's: paper, paper@0.5. Breaks alternate. Two runs with one seed print the same bytes, unless
---timing is given.
+A player is KIND[:SIMULATIONS][@NOISE]: paper, club, champion, or a strength from 0 to 100; how many
+shots it may simulate for a decision; the noise of its strokes in multiples of the Computer Pool
+Olympiad's. For example paper@0.5, champion:2000, club:20@0, 70. Breaks alternate. Two runs with one
+seed print the same bytes, unless --timing is given.
 
 What is counted:
   success        shots meant to pocket a ball (called, or chosen by the player) whose ball fell into
@@ -45,15 +46,15 @@ P + d, with d = min(0.05, (1 - P) / 2) and 5 % errors either way. Unlike an inte
 be looked at after each rack.
 
 Examples:
-  hapticbillard tournament --players paper@0,paper@1,paper@5 --racks 50
-  hapticbillard tournament --players paper@0.5,paper --noise 0,0.5,1,2,5 --out results/
-  hapticbillard tournament --players paper@0,paper@5 --racks 400 --until 0.8 --json";
+  hapticbillard tournament --players champion:500,club,paper --racks 50
+  hapticbillard tournament --players club,paper --noise 0,0.5,1,2,5 --out results/
+  hapticbillard tournament --players champion,club --racks 400 --until 0.8 --json";
 
 /// Lets every player play against every other one, without a window.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct TournamentArgs {
-    /// Who plays, the one who is thought to be strongest first: KIND or KIND@NOISE.
+    /// Who plays, the one who is thought to be strongest first: KIND[:SIMULATIONS][@NOISE].
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', num_args = 1, required = true)]
     pub players: Vec<Entrant>,
 
@@ -101,7 +102,7 @@ pub struct TournamentArgs {
     #[arg(long)]
     pub json: bool,
 
-    /// Also tells how long decisions took; two runs then differ.
+    /// Also tells how long decisions took, in lockstep on one core each; two runs then differ.
     #[arg(long)]
     pub timing: bool,
 }

@@ -1,12 +1,27 @@
 //! What geometry proposes: shots that might be worth a simulation.
+//!
+//! Everything is seen from above and reckoned in straight lines; cushions are mirrors. What comes
+//! of a shot really is left to a simulation.
+
+mod bank;
+mod carom;
+mod chance;
+mod combination;
+mod contact;
+mod cushion;
+mod kick;
+mod mouth;
+mod opening;
+mod pot;
+mod trace;
+mod way;
 
 use super::noise::StrokeNoise;
-use super::plan::{Goal, Line};
+use super::plan::{Goal, Line, LineEnd};
 use super::view::TableView2d;
-use crate::events::Zone;
+use crate::events::ShotKind;
 use crate::ids::{BallId, PocketId};
 use glam::DVec2;
-use rand::Rng;
 use smallvec::SmallVec;
 
 /// What sort of shot an idea is.
@@ -57,6 +72,9 @@ pub struct Idea {
     pub to_end_m: f64,
     /// Cushions on both ways together.
     pub cushions: u8,
+    /// Height at which the tip shall meet the cue ball, over its radius, as far as the idea depends
+    /// on it (caroms): 0.4 makes it roll at once, 0 slide, less draw.
+    pub height_offset: f64,
     /// Speed of the tip that just does it [m/s].
     pub speed_least_m_s: f64,
     /// Chance that it works for a player with this noise, estimated; for ranking.
@@ -74,24 +92,81 @@ pub enum Repertoire {
     Full,
 }
 
-/// Shots from a cue ball at `cue`, best chance first. Never empty.
+/// Shots from a cue ball at `cue`, best chance first; of equal ones that with the smaller ball, then
+/// pocket. Never empty while there is an object ball.
+///
+/// A break asks for [`IdeaKind::Break`] alone.
 pub fn ideas(
-    _view: &TableView2d,
-    _cue: DVec2,
-    _goal: &Goal,
-    _noise: &StrokeNoise,
-    _repertoire: Repertoire,
+    view: &TableView2d,
+    cue: DVec2,
+    goal: &Goal,
+    noise: &StrokeNoise,
+    repertoire: Repertoire,
 ) -> Vec<Idea> {
-    Vec::new()
+    let sigma_rad = chance::cue_ball_sigma_rad(noise, view.ball_radius_m);
+    let position = Position { view, cue, goal, sigma_rad };
+    let mut found = Vec::new();
+    if goal.shot == ShotKind::Break && !view.pockets.is_empty() {
+        opening::breaks(&position, &mut found);
+    } else {
+        pot::pots(&position, &mut found);
+        contact::contacts(&position, &mut found);
+    }
+    if repertoire == Repertoire::Full && goal.shot != ShotKind::Break {
+        combination::combinations(&position, &mut found);
+        bank::banks(&position, &mut found);
+        kick::kicks(&position, &mut found);
+        carom::caroms(&position, &mut found);
+    }
+    if found.is_empty() {
+        found.extend(contact::desperate(&position));
+    }
+    found.sort_by(|a, b| {
+        b.chance
+            .total_cmp(&a.chance)
+            .then_with(|| (a.kind, a.first, a.ball).cmp(&(b.kind, b.first, b.ball)))
+            .then_with(|| a.pocket.cmp(&b.pocket))
+    });
+    found
+}
+
+/// Less likely combinations, banks and the like are no ideas.
+const CHANCE_LEAST: f64 = 0.01;
+
+/// What a player looks at.
+#[derive(Debug, Clone, Copy)]
+struct Position<'a> {
+    view: &'a TableView2d,
+    /// Where the cue ball lies [m].
+    cue: DVec2,
+    goal: &'a Goal,
+    /// Standard deviation of the cue ball's direction [rad].
+    sigma_rad: f64,
+}
+
+impl Position<'_> {
+    fn radius(&self) -> f64 {
+        self.view.ball_radius_m
+    }
+
+    /// Balls of a list that lie on the table, with their places.
+    fn lying<'b>(&'b self, balls: &'b [BallId]) -> impl Iterator<Item = (BallId, DVec2)> + 'b {
+        balls.iter().filter_map(|id| Some((*id, self.view.position(*id)?)))
+    }
+}
+
+/// A free way, to be drawn.
+fn line(from: DVec2, to: DVec2, end: LineEnd) -> Line {
+    Line { from, to, end, free: true, chosen: false }
 }
 
 /// Places for a cue ball in hand in `zone`, best first [m]; all have room.
 pub fn spots(
-    _view: &TableView2d,
-    _zone: Zone,
-    _goal: &Goal,
+    view: &TableView2d,
+    zone: crate::events::Zone,
+    goal: &Goal,
     _noise: &StrokeNoise,
-    _rng: &mut impl Rng,
+    rng: &mut impl rand::Rng,
 ) -> Vec<DVec2> {
-    Vec::new()
+    super::place::placements(view, zone, goal, 0.07, rng)
 }

@@ -17,7 +17,8 @@ pub struct Overrides {
     pub first_player: Option<PlayerId>,
     /// Who plays, from player 1 on; empty: the scene's own.
     pub players: Vec<Entrant>,
-    /// Noise of all computers' strokes, unless a player has one of its own.
+    /// Noise of all computers' strokes, in multiples of the Computer Pool Olympiad's, unless a
+    /// player has one of its own.
     pub noise: Option<f64>,
 }
 
@@ -38,7 +39,7 @@ impl Overrides {
             rules.first_player = first;
         }
         if let Some(noise) = self.noise {
-            scene.players.iter_mut().for_each(|section| section.noise = noise);
+            scene.players.iter_mut().for_each(|section| section.noise = Some(noise));
         }
         for (section, entrant) in scene.players.iter_mut().zip(&self.players) {
             entrant.apply(section);

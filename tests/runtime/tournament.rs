@@ -95,7 +95,7 @@ fn racks_are_recorded_with_their_players_and_replayed() {
 #[test]
 fn what_is_wrong_about_players_and_goals_is_said_with_what_to_write() {
     for (arguments, expected) in [
-        (&["--players", "papier,paper"][..], "'papier'"),
+        (&["--players", "papier,paper"][..], "is called \"papier\""),
         (&["--players", "paper@x,paper"], "'x' is no noise"),
         (&["--players", "paper"], "give two or more"),
         (&["--players", "paper,paper@1,paper"], "paper is there twice"),

@@ -26,7 +26,7 @@ impl Match {
     /// The folder of its recordings.
     pub fn file_name(&self) -> String {
         let [one, two] = &self.players;
-        format!("{one}-{two}-noise-{}", self.noise).replace('@', "-at-")
+        format!("{one}-{two}-noise-{}", self.noise).replace('@', "-at-").replace(':', "-")
     }
 }
 
@@ -48,7 +48,7 @@ impl Plan {
     pub fn new(args: &TournamentArgs) -> Result<Self, Error> {
         let players = args.players.clone();
         if players.len() < 2 {
-            let fix = "give two or more, such as paper@0,paper@1";
+            let fix = "give two or more, such as club,paper";
             return Err(Error::input("--players", "one player has nobody to play against", fix));
         }
         for (i, player) in players.iter().enumerate() {
