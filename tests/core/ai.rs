@@ -3,6 +3,7 @@
 mod ideas;
 mod plan;
 mod player;
+mod searching;
 mod stroke;
 
 use glam::DVec2;

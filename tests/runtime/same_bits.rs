@@ -51,6 +51,20 @@ fn actors_give_the_bits_of_lockstep_with_any_number_of_workers() {
 }
 
 #[test]
+fn players_that_search_in_the_background_decide_as_in_lockstep() {
+    let stage = stage("eight_ball_headless", 3);
+    let players = vec![PlayerKind::Computer(70), PlayerKind::Club];
+    let stage = stage.with(Overrides { players, seed: Some(5), ..Overrides::default() });
+    let limit = Tick(120_000);
+    let reference = lockstep(&stage, Pace::Jump, limit);
+    assert!(reference.hash.is_some());
+    for workers in [1, 2] {
+        let run = actors(&stage, Pace::Jump, workers, false, limit);
+        assert_eq!(all(&run), all(&reference), "{workers} workers");
+    }
+}
+
+#[test]
 fn jumping_changes_no_bit() {
     // A minute of each, tick by tick and jumping. The last tick in which anybody is called is the
     // same, so its hash is.
