@@ -20,7 +20,7 @@ pub use plan::{
 mod fallback;
 
 mod ideas;
-pub use ideas::{Idea, IdeaKind, Repertoire, ideas};
+pub use ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 
 mod mind;
 pub use mind::{

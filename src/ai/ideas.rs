@@ -13,8 +13,11 @@ mod kick;
 mod mouth;
 mod opening;
 mod pot;
+mod spots;
 mod trace;
 mod way;
+
+pub use spots::spots;
 
 use super::noise::StrokeNoise;
 use super::plan::{Goal, Line, LineEnd};

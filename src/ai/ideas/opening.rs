@@ -1,14 +1,12 @@
 //! The break: where the rack may be met.
 
 use super::chance::within;
-use super::way::{Window, window};
-use super::{Idea, IdeaKind, Position, line};
-use crate::ai::geometry::turned;
-use crate::ai::plan::LineEnd;
+use super::contact::met;
+use super::way::Window;
+use super::{Idea, IdeaKind, Position};
 use crate::ai::speed::pot_tip_speed;
 use crate::ids::BallId;
 use glam::DVec2;
-use smallvec::smallvec;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -40,35 +38,14 @@ pub(super) fn breaks(position: &Position<'_>, found: &mut Vec<Idea>) {
 }
 
 fn one(position: &Position<'_>, ball: BallId, at: DVec2, cut_rad: f64) -> Option<Idea> {
-    let apart = 2.0 * position.radius();
-    let distance = at.distance(position.cue);
-    let full = (at - position.cue).try_normalize()?;
-    let aside = libm::asin((apart / distance.max(apart) * libm::sin(cut_rad)).clamp(-1.0, 1.0));
-    let direction: DVec2 = turned(full, -aside);
-    let way = turned(direction, cut_rad);
-    let ghost = at - apart * way;
-    let free = window(position, position.cue, ghost, &[ball])?;
-    if !position.view.bed.holds(ghost, position.radius() - 1e-6) {
-        return None;
-    }
-    let tenth = 0.1 * apart / distance;
-    let near = Window { right: -tenth, left: tenth }.and(free);
-    let to_ball_m = position.cue.distance(ghost);
+    let (contact, edges) = met(position, ball, at, cut_rad)?;
+    let tenth = 0.1 * 2.0 * position.radius() / at.distance(position.cue);
+    let near = Window { right: -tenth, left: tenth }.and(edges);
     Some(Idea {
         kind: IdeaKind::Break,
-        first: Some(ball),
-        ball: None,
-        pocket: None,
-        direction,
-        ghost,
-        first_way: Some(way),
-        cut_rad,
-        to_ball_m,
         to_end_m: GOES_M,
-        cushions: 0,
-        height_offset: 0.0,
-        speed_least_m_s: pot_tip_speed(to_ball_m, cut_rad, GOES_M),
+        speed_least_m_s: pot_tip_speed(contact.to_ball_m, cut_rad, GOES_M),
         chance: within(position.sigma_rad, near.right, near.left),
-        lines: smallvec![line(position.cue, ghost, LineEnd::Ball(ball))],
+        ..contact
     })
 }
