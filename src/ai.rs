@@ -19,13 +19,19 @@ pub use plan::{
 
 mod fallback;
 
+mod settings;
+pub use settings::{Level, NOISE_USUAL, PlayerSettings};
+
+mod hold;
+pub use hold::Clearance;
+
 mod ideas;
 pub use ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 
 mod mind;
 pub use mind::{
-    Considered, Decision, Deliberation, Inline, Mind, Outcome, PlannedShot, Task, TaskKind,
-    Thoughts, Workers,
+    Considered, Decision, Deliberation, Inline, Mind, MindSetup, Outcome, PlannedShot, Task,
+    TaskKind, Thoughts, Workers,
 };
 
 mod noise;
@@ -40,11 +46,14 @@ pub use choose::{Outlook, call, choose};
 mod place;
 pub use place::{placements, zone_holds};
 
+mod insight;
+pub use insight::{insight_of_plan, insight_of_thoughts};
+
 mod learn;
 pub use learn::AimLearner;
 
 mod stroke;
-pub use stroke::{Stroke, approach, resting_pose, withdrawal};
+pub use stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 
 mod player;
-pub use player::{Clearance, Level, Player, PlayerSettings};
+pub use player::Player;

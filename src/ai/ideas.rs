@@ -162,3 +162,14 @@ impl Position<'_> {
 fn line(from: DVec2, to: DVec2, end: LineEnd) -> Line {
     Line { from, to, end, free: true, chosen: false }
 }
+
+/// Places for a cue ball in hand in `zone`, best first [m]; all have room.
+pub fn spots(
+    view: &TableView2d,
+    zone: crate::events::Zone,
+    goal: &Goal,
+    _noise: &StrokeNoise,
+    rng: &mut impl rand::Rng,
+) -> Vec<DVec2> {
+    super::place::placements(view, zone, goal, 0.07, rng)
+}

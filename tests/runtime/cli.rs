@@ -53,7 +53,16 @@ fn refused(arguments: &[&str], expected: &str) {
 #[test]
 fn every_command_teaches_with_an_example() {
     let commands = [
-        "play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate",
+        "play",
+        "simulate",
+        "match",
+        "tournament",
+        "replay",
+        "render",
+        "scene",
+        "scenes",
+        "rules",
+        "validate",
         "report",
     ];
     for command in commands {

@@ -1,9 +1,9 @@
 //! What a searching player is asked.
 
 use crate::ball::BallState;
-use crate::events::Zone;
-use crate::ids::PlayerId;
+use crate::events::{Turn, Zone};
 use crate::rules::Referee;
+use std::sync::Arc;
 
 /// A question, with all that its answer may depend on besides the player's own [`super::Mind`].
 #[derive(Debug, Clone)]
@@ -14,8 +14,8 @@ pub struct Task {
     pub lies: Vec<BallState>,
     /// How the game stands, as everybody can know who heard what happened.
     pub referee: Referee,
-    /// Who asks.
-    pub player: PlayerId,
+    /// What the referee called for.
+    pub turn: Arc<Turn>,
     /// The zone that the cue ball was put into in this turn.
     pub played_from: Option<Zone>,
     /// The other player was asked to play again, and this one has not played since.
