@@ -2,7 +2,7 @@
 
 use super::chance::within;
 use super::way::{Window, window};
-use super::{Idea, IdeaKind, Position, line};
+use super::{Idea, IdeaKind, Position, diagonally, line};
 use crate::ai::geometry::turned;
 use crate::ai::plan::LineEnd;
 use crate::ai::speed::pot_tip_speed;
@@ -12,33 +12,34 @@ use smallvec::smallvec;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// Cuts at which a ball is met [rad]: full, three quarters, half, a quarter, thin.
+/// Cuts at which a ball is met [rad]: full, a quarter, thin, half, three quarters.
 const CUTS_RAD: [f64; 9] = [
     0.0,
-    14.0 * DEGREE,
-    -14.0 * DEGREE,
-    30.0 * DEGREE,
-    -30.0 * DEGREE,
     49.0 * DEGREE,
     -49.0 * DEGREE,
     68.0 * DEGREE,
     -68.0 * DEGREE,
+    30.0 * DEGREE,
+    -30.0 * DEGREE,
+    14.0 * DEGREE,
+    -14.0 * DEGREE,
 ];
-/// How far the met ball shall at least go [m]: softly, to a rail, across the table.
-const GOES_M: [f64; 3] = [0.15, 0.8, 2.5];
+/// How far the met ball shall at least go [m]: to a rail, softly, across the table.
+const GOES_M: [f64; 3] = [0.6, 0.15, 2.5];
 
 /// Legal balls full and thin on either side, from soft to firm.
 pub(super) fn contacts(position: &Position<'_>, found: &mut Vec<Idea>) {
-    for (ball, at) in position.lying(&position.goal.legal) {
-        for cut_rad in CUTS_RAD {
+    let balls = position.nearest_legal();
+    for to_end_m in GOES_M {
+        for (n, cut) in diagonally(balls.len(), CUTS_RAD.len()) {
+            let ((ball, at), cut_rad) = (balls[n], CUTS_RAD[cut]);
             let Some((contact, edges)) = met(position, ball, at, cut_rad) else { continue };
-            let chance = within(position.sigma_rad, edges.right, edges.left);
-            found.extend(GOES_M.into_iter().map(|to_end_m| Idea {
+            found.push(Idea {
                 to_end_m,
                 speed_least_m_s: pot_tip_speed(contact.to_ball_m, cut_rad, to_end_m),
-                chance,
-                ..contact.clone()
-            }));
+                chance: within(position.sigma_rad, edges.right, edges.left),
+                ..contact
+            });
         }
     }
 }
@@ -110,10 +111,10 @@ pub(super) fn desperate(position: &Position<'_>) -> Option<Idea> {
         first_way: Some(direction),
         cut_rad: 0.0,
         to_ball_m: (distance - apart).max(0.0),
-        to_end_m: GOES_M[1],
+        to_end_m: GOES_M[0],
         cushions: 0,
         height_offset: 0.0,
-        speed_least_m_s: pot_tip_speed((distance - apart).max(0.0), 0.0, GOES_M[1]),
+        speed_least_m_s: pot_tip_speed((distance - apart).max(0.0), 0.0, GOES_M[0]),
         chance: 0.0,
         lines: smallvec![drawn],
     })
