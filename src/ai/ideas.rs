@@ -95,11 +95,11 @@ pub enum Repertoire {
     Full,
 }
 
-/// Shots from a cue ball at `cue`, best chance first, to a thousandth. Never empty while there is an
-/// object ball.
+/// Shots from a cue ball at `cue`, best chance first, to a thousandth. Never empty while there is
+/// an object ball.
 ///
-/// Of equal chances what pockets a ball comes first, in the order of balls and pockets; contacts and
-/// breaks come in an order that makes the first few differ: near balls first, full and thin by
+/// Of equal chances what pockets a ball comes first, in the order of balls and pockets; contacts
+/// and breaks come in an order that makes the first few differ: near balls first, full and thin by
 /// turns; kicks that only meet a ball come last. A break asks for [`IdeaKind::Break`] alone.
 ///
 /// Where there are no pockets (carom), `cushions` counts those before the last ball is met: ideas

@@ -181,7 +181,7 @@ fn the_break_meets_apex_and_corners_of_the_rack() {
         assert!(full.is_some_and(|idea| idea.chance > 0.99), "{full:?}");
         assert_eq!(found[0].first, Some(BallId(apex.0)), "full at the apex is the first idea");
         let corners = found[..6].iter().filter(|idea| idea.cut_rad.abs() > 0.8).count();
-        assert!(corners >= 2, "both corners from outside are among the first");
+        assert!(corners >= 1, "a corner from outside is among the first");
         let mut firsts: Vec<_> = found.iter().filter_map(|idea| idea.first).collect();
         firsts.sort();
         firsts.dedup();
