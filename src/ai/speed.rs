@@ -96,17 +96,17 @@ pub(super) fn before_meeting(cut_rad: f64, object_m_s: f64) -> f64 {
     object_m_s / shared
 }
 
+/// Part of a rolling ball's speed that a cushion leaves, whatever its angle.
+const CUSHION_SHARE: f64 = 0.8;
+
 /// Speed that a ball must start with to be at `arrival_m_s` at the end of its way [m/s], whose
-/// parts `legs_m` are joined by cushions.
+/// parts `legs_m` are joined by cushions. After a cushion it rolls.
 pub(super) fn launch_by_cushions(legs_m: &[f64], arrival_m_s: f64) -> f64 {
-    let mut speed = arrival_m_s;
-    for (i, leg) in legs_m.iter().enumerate().rev() {
-        speed = launch_speed(*leg, speed);
-        if i > 0 {
-            speed /= CUSHION_RESTITUTION;
-        }
-    }
-    speed
+    let Some((first, after)) = legs_m.split_first() else { return arrival_m_s };
+    let bounced = after.iter().rev().fold(arrival_m_s, |speed, leg| {
+        (speed * speed + 2.0 * ROLLING_RESISTANCE * GRAVITY_M_S2 * leg).sqrt() / CUSHION_SHARE
+    });
+    launch_speed(*first, bounced)
 }
 
 /// Speed that a ball must start with to fall at the end of its way [m/s].
