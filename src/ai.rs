@@ -28,6 +28,9 @@ pub use place::{placements, zone_holds};
 mod learn;
 pub use learn::AimLearner;
 
+mod throw_table;
+pub use throw_table::{ThrowTable, ThrowTableError};
+
 mod stroke;
 pub use stroke::{Stroke, approach, resting_pose, withdrawal};
 
