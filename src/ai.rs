@@ -28,6 +28,8 @@ pub use place::{placements, zone_holds};
 mod learn;
 pub use learn::AimLearner;
 
+pub mod lesson;
+
 mod throw_table;
 pub use throw_table::{ThrowTable, ThrowTableError};
 

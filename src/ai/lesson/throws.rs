@@ -1,0 +1,70 @@
+//! How a throw table is learned: a lesson for each of its cells.
+
+use super::{COMMANDED_LIMIT_RAD, DEGREE, Drill};
+use crate::ai::speed::{BALL_PER_TIP_SPEED, launch_speed};
+use crate::ai::{AimLearner, ThrowTable};
+use crate::physics::{PhysicsError, Simulation};
+use core::ops::Range;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+/// Rows of the table [°].
+const CUTS_DEG: [f64; 12] = [2.5, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 78.0];
+/// Its columns [m/s].
+const SPEEDS_M_S: [f64; 9] = [0.3, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0];
+/// How many cells there are.
+pub const THROW_CELLS: usize = CUTS_DEG.len() * SPEEDS_M_S.len();
+/// Ways of the cue ball [m].
+const TO_BALL_M: Range<f64> = 0.15..1.5;
+/// r β, what a shot corrects of the error of its cut.
+const RATE: f64 = 0.3;
+/// w of the learner.
+const WEIGHT: f64 = 0.5;
+
+/// f of a cell, counted row by row: the mean of the last half of `shots` shots that begin with
+/// f = 0, each with the cue ball at the cell's speed when it meets the ball, over random distances.
+///
+/// # Errors
+/// [`PhysicsError`] if the simulation gives up.
+pub fn throw_cell(
+    cell: usize,
+    table: &Simulation,
+    seed: u64,
+    shots: u32,
+) -> Result<f64, PhysicsError> {
+    let cut_deg = CUTS_DEG[cell / SPEEDS_M_S.len() % CUTS_DEG.len()];
+    let ball_speed_m_s = SPEEDS_M_S[cell % SPEEDS_M_S.len()];
+    let mut random = Pcg64Mcg::seed_from_u64(seed ^ (cell as u64) << 32);
+    let mut learner = AimLearner::with_rate(0.0, RATE / cut_deg, WEIGHT);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for shot in 0..shots {
+        let to_ball_m = random.random_range(TO_BALL_M);
+        let cut_rad = cut_deg * DEGREE;
+        let drill = Drill {
+            cut_rad,
+            commanded_rad: learner.command(cut_rad, COMMANDED_LIMIT_RAD),
+            to_ball_m,
+            tip_speed_m_s: launch_speed(to_ball_m, ball_speed_m_s) / BALL_PER_TIP_SPEED,
+            obstacle: None,
+        };
+        if let Some(seen) = drill.play(table)? {
+            learner.learn(seen.error_deg);
+        }
+        if shot >= shots / 2 {
+            sum += learner.factor;
+            count += 1.0;
+        }
+    }
+    Ok(if count > 0.0 { sum / count } else { learner.factor })
+}
+
+/// A throw table of its cells' factors, in the order of [`throw_cell`].
+pub fn throw_table(factors: &[f64], seed: u64, shots: u32) -> ThrowTable {
+    ThrowTable {
+        seed,
+        shots,
+        cuts_deg: CUTS_DEG.to_vec(),
+        speeds_m_s: SPEEDS_M_S.to_vec(),
+        factors: factors.chunks(SPEEDS_M_S.len()).map(<[f64]>::to_vec).collect(),
+    }
+}
