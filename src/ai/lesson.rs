@@ -16,7 +16,7 @@ pub use throws::{THROW_CELLS, throw_cell, throw_table};
 
 use super::AimLearner;
 use super::geometry::turned;
-use super::speed;
+use super::speed::{self, BALL_PER_TIP_SPEED};
 use crate::ball::POOL_RADIUS_M;
 use crate::physics::{PhysicsError, Simulation};
 use core::f64::consts::TAU;
@@ -51,6 +51,8 @@ pub struct Lesson {
     pub cut_deg: Range<f64>,
     /// Ways of the cue ball [m].
     pub to_ball_m: Range<f64>,
+    /// How hard it is struck.
+    pub strength: Strength,
     /// Ways of the object ball to its pocket [m].
     pub to_pocket_m: Range<f64>,
     /// Standard deviation of what the player sees of the direction [°].
@@ -59,6 +61,15 @@ pub struct Lesson {
     pub outliers: f64,
     /// Whether the learner sorts out errors above its threshold.
     pub threshold: bool,
+}
+
+/// How hard the cue ball is struck.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Strength {
+    /// So that it would leave with one of these speeds [m/s].
+    BallSpeed(Range<f64>),
+    /// As the paper's player strikes in play: in a band above what the ways need.
+    AsPlayed,
 }
 
 impl Default for Lesson {
@@ -70,6 +81,7 @@ impl Default for Lesson {
             weight: 0.5,
             cut_deg: 3.0..55.0,
             to_ball_m: 0.2..1.2,
+            strength: Strength::BallSpeed(1.0..5.0),
             to_pocket_m: 0.3..1.4,
             observation_error_deg: 0.76,
             outliers: 0.12,
@@ -133,7 +145,10 @@ impl Lesson {
         let side = if random.random_bool(0.5) { 1.0 } else { -1.0 };
         let to_ball_m = random.random_range(self.to_ball_m.clone());
         let to_pocket_m = random.random_range(self.to_pocket_m.clone());
-        let tip_speed_m_s = speed::pot_strength(to_ball_m, cut_rad, to_pocket_m, random);
+        let tip_speed_m_s = match &self.strength {
+            Strength::BallSpeed(band) => random.random_range(band.clone()) / BALL_PER_TIP_SPEED,
+            Strength::AsPlayed => speed::pot_strength(to_ball_m, cut_rad, to_pocket_m, random),
+        };
         let misreading_deg = self.observation_error_deg * gauss(random);
         let obstructed = random.random::<f64>() < self.outliers;
         let off_rad = random.random_range(OBSTACLE_RAD);

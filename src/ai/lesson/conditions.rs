@@ -83,6 +83,12 @@ pub fn conditions() -> Vec<Condition> {
             None,
         ),
         made("standard", "standard, exact", exact, (true, true), None),
-        made("standard_no_friction", "standard, exact, no ball friction", exact, (false, true), None),
+        made(
+            "standard_no_friction",
+            "standard, exact, no ball friction",
+            exact,
+            (false, true),
+            None,
+        ),
     ]
 }

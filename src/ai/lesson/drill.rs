@@ -91,11 +91,7 @@ impl Drill {
     }
 
     /// Where the object ball went between the last two looks [m].
-    fn watch(
-        &self,
-        table: &mut Simulation,
-        met_s: Seconds,
-    ) -> Result<Option<DVec2>, PhysicsError> {
+    fn watch(&self, table: &mut Simulation, met_s: Seconds) -> Result<Option<DVec2>, PhysicsError> {
         let mut before = DVec2::ZERO;
         let mut way = None;
         let mut facts = Vec::new();
