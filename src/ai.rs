@@ -10,7 +10,7 @@ mod geometry;
 pub use geometry::{is_blocked, signed_angle};
 
 mod speed;
-pub use speed::{BALL_PER_TIP_SPEED, launch_speed, pot_tip_speed};
+pub use speed::{BALL_PER_TIP_SPEED, arrival_speed, launch_speed, pot_tip_speed};
 
 mod plan;
 pub use plan::{

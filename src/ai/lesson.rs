@@ -6,13 +6,15 @@
 
 mod conditions;
 mod drill;
+mod exams;
 mod summary;
 mod throws;
 
 pub use conditions::{Condition, PaperFigures, conditions};
 pub use drill::{Drill, Sighting, practice_table};
+pub use exams::{Demand, Exam, exams};
 pub use summary::{HITS_OVER, Summary, mean_hit_rate};
-pub use throws::{THROW_CELLS, throw_cell, throw_table};
+pub use throws::{THROW_CELLS, pot_error_deg, throw_cell, throw_table};
 
 use super::AimLearner;
 use super::geometry::turned;

@@ -1,7 +1,7 @@
 //! How a throw table is learned: a lesson for each of its cells.
 
-use super::{COMMANDED_LIMIT_RAD, DEGREE, Drill};
-use crate::ai::speed::{BALL_PER_TIP_SPEED, launch_speed};
+use super::{COMMANDED_LIMIT_RAD, DEGREE, Drill, Lesson};
+use crate::ai::speed::{self, BALL_PER_TIP_SPEED, arrival_speed, launch_speed};
 use crate::ai::{AimLearner, ThrowTable};
 use crate::physics::{PhysicsError, Simulation};
 use core::ops::Range;
@@ -16,6 +16,8 @@ const SPEEDS_M_S: [f64; 9] = [0.3, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0];
 pub const THROW_CELLS: usize = CUTS_DEG.len() * SPEEDS_M_S.len();
 /// Ways of the cue ball [m].
 const TO_BALL_M: Range<f64> = 0.15..1.5;
+/// Cuts of the pots that a table is tried on [°].
+const POT_CUTS_DEG: Range<f64> = 3.0..70.0;
 /// r β, what a shot corrects of the error of its cut.
 const RATE: f64 = 0.3;
 /// w of the learner.
@@ -67,4 +69,35 @@ pub fn throw_table(factors: &[f64], seed: u64, shots: u32) -> ThrowTable {
         speeds_m_s: SPEEDS_M_S.to_vec(),
         factors: factors.chunks(SPEEDS_M_S.len()).map(<[f64]>::to_vec).collect(),
     }
+}
+
+/// Mean size of the error of the object ball's direction over `pots` random pots [°], aimed with
+/// f = `factor`(cut [rad], speed of the cue ball when it meets the ball [m/s]). Cuts of 3° to 70°,
+/// strokes as the paper's player makes them; the speed is what a player reckons, not what comes.
+///
+/// # Errors
+/// [`PhysicsError`] if the simulation gives up.
+pub fn pot_error_deg(
+    factor: impl Fn(f64, f64) -> f64,
+    table: &Simulation,
+    seed: u64,
+    pots: u32,
+) -> Result<f64, PhysicsError> {
+    let usual = Lesson::default();
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for _ in 0..pots {
+        let cut_rad = random.random_range(POT_CUTS_DEG) * DEGREE;
+        let to_ball_m = random.random_range(usual.to_ball_m.clone());
+        let to_pocket_m = random.random_range(usual.to_pocket_m.clone());
+        let tip_speed_m_s = speed::pot_strength(to_ball_m, cut_rad, to_pocket_m, &mut random);
+        let arrives_m_s = arrival_speed(BALL_PER_TIP_SPEED * tip_speed_m_s, to_ball_m);
+        let commanded_rad = (1.0 + factor(cut_rad, arrives_m_s)) * cut_rad;
+        let drill = Drill { cut_rad, commanded_rad, to_ball_m, tip_speed_m_s, obstacle: None };
+        if let Some(seen) = drill.play(table)? {
+            sum += seen.error_deg.abs();
+            count += 1.0;
+        }
+    }
+    Ok(if count > 0.0 { sum / count } else { 0.0 })
 }
