@@ -6,7 +6,7 @@ mod closed_loop;
 
 mod csv;
 
-mod figure;
+pub(super) mod figure;
 
 mod left_out;
 

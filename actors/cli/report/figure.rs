@@ -33,7 +33,7 @@ const EXACT: [(&str, RGBColor, u32); 2] = [
 const OTHERS: [RGBColor; 4] =
     [RGBColor(140, 20, 20), RGBColor(110, 60, 160), RGBColor(60, 110, 20), RGBColor(130, 110, 60)];
 
-pub(super) fn failed(error: impl Display) -> Error {
+pub fn failed(error: impl Display) -> Error {
     Error::Output(std::io::Error::other(format!("a figure could not be drawn: {error}")))
 }
 
