@@ -11,7 +11,8 @@ use rand_pcg::Pcg64Mcg;
 /// Rows of the table [°].
 const CUTS_DEG: [f64; 12] = [2.5, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 70.0, 78.0];
 /// Its columns [m/s].
-const SPEEDS_M_S: [f64; 9] = [0.3, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0];
+const SPEEDS_M_S: [f64; 14] =
+    [0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 9.0];
 /// How many cells there are.
 pub const THROW_CELLS: usize = CUTS_DEG.len() * SPEEDS_M_S.len();
 /// Ways of the cue ball [m].
