@@ -19,6 +19,24 @@ pub use plan::{
 
 mod fallback;
 
+mod hold;
+pub use hold::Clearance;
+
+mod ideas;
+pub use ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
+
+mod mind;
+pub use mind::{
+    Considered, Decision, Deliberation, Inline, Mind, MindSetup, Outcome, PlannedShot, Task,
+    TaskKind, Thoughts, Workers,
+};
+
+mod noise;
+pub use noise::StrokeNoise;
+
+mod thinker;
+pub use thinker::{ThinkInline, Thinker, Thinking};
+
 mod choose;
 pub use choose::{Outlook, call, choose};
 
@@ -37,4 +55,4 @@ mod stroke;
 pub use stroke::{Stroke, approach, resting_pose, withdrawal};
 
 mod player;
-pub use player::{Clearance, Level, Player, PlayerSettings};
+pub use player::{Level, Player, PlayerSettings};

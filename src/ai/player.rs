@@ -5,12 +5,13 @@
 //! not happen in time is tried again.
 
 use super::choose::{Outlook, call, choose};
+use super::hold::{self, Clearance};
+use super::noise::StrokeNoise;
 use super::place::placements;
 use super::plan::{Goal, Plan, plan_shot};
-use super::speed::BALL_PER_TIP_SPEED;
 use super::stroke::{Stroke, approach, resting_pose, withdrawal};
 use super::view::TableView2d;
-use crate::cue::{Aim, CuePath, elevation_over_balls};
+use crate::cue::{Aim, CuePath};
 use crate::events::{
     Choice, Command, Event, FactKind, PlayerReport, PlayerState, Source, Topic, Topics, Turn,
     TurnAfter, Zone,
@@ -27,8 +28,6 @@ use rand_pcg::Pcg64Mcg;
 use std::fmt;
 use std::sync::Arc;
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
-
 /// The pause before a turn [ticks].
 const LAZING_TICKS: std::ops::RangeInclusive<u64> = 400..=1200;
 /// How long the answer to a placement may take [ticks].
@@ -41,29 +40,16 @@ const CONTACT_TICKS: u64 = 3;
 const REAIMS: u32 = 3;
 /// The longest that a shot is watched [ticks]: two minutes.
 const ANALYZING_TICKS: u64 = 120_000;
-/// The lowest butt [rad]: the hand needs room above the cloth.
-const ELEVATION_MIN_RAD: f64 = 2.0 * DEGREE;
-/// The highest [rad].
-const ELEVATION_MAX_RAD: f64 = 60.0 * DEGREE;
-/// Restitution of a ball on the cloth that the player reckons with.
-const CLOTH_RESTITUTION: f64 = 0.5;
-/// Fastest upward speed of a cue ball that is struck with a raised cue [m/s]: it hops 18 mm, so it
-/// does not jump over the ball that it shall meet.
-const HOP_SPEED_M_S: f64 = 0.6;
-/// Standard deviations of a Computer Pool Olympiad stroke: tip offset [m], elevation [rad],
-/// azimuth [rad], speed [m/s].
-const OLYMPIAD_NOISE: (f64, f64, f64, f64) = (0.0005, 0.1 * DEGREE, 0.125 * DEGREE, 0.075);
-
-/// How a player knows how steep the cue must be held to pass over the rails [rad], for a cue ball
-/// at a place [m] and an azimuth [rad].
-pub type Clearance = Arc<dyn Fn(DVec2, f64) -> f64 + Send + Sync>;
-
 /// How well a computer plays.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Level {
     /// As the paper's: geometry from above, no look into the future.
     #[default]
     Paper,
+    /// Simulates the few best shots.
+    Club,
+    /// Searches.
+    Champion,
 }
 
 /// What distinguishes one computer player from another.
@@ -371,26 +357,12 @@ impl Player {
     /// the settings ask for.
     fn stroke_for(&mut self, plan: &mut Plan, view: &TableView2d) -> Stroke {
         let mut aim = Aim::along(plan.direction);
-        let others = view.balls.iter().map(|ball| ball.position);
-        let over_balls =
-            elevation_over_balls(plan.cue_ball, plan.direction, others, self.ball_radius_m);
         let over_rail = (self.clearance)(plan.cue_ball, aim.azimuth_rad);
-        aim.elevation_rad = over_balls.max(over_rail).clamp(ELEVATION_MIN_RAD, ELEVATION_MAX_RAD);
-
-        // Only the horizontal part drives the ball along; what presses it down makes it hop.
-        let (sin, cos) = libm::sincos(aim.elevation_rad);
-        let hop_limit = HOP_SPEED_M_S / (CLOTH_RESTITUTION * BALL_PER_TIP_SPEED * sin);
-        plan.speed_m_s = (plan.speed_m_s / cos).min(hop_limit);
-
-        if self.settings.noise > 0.0 {
-            let (offset, elevation, azimuth, speed) = OLYMPIAD_NOISE;
-            let mut error = |sigma: f64| self.settings.noise * sigma * normal(&mut self.rng);
-            aim.side_offset += error(offset / self.ball_radius_m);
-            aim.height_offset += error(offset / self.ball_radius_m);
-            aim.elevation_rad = (aim.elevation_rad + error(elevation)).max(0.0);
-            aim.azimuth_rad += error(azimuth);
-            plan.speed_m_s = (plan.speed_m_s + error(speed)).max(0.1);
-        }
+        aim.elevation_rad = hold::elevation(view, plan.cue_ball, plan.direction, over_rail);
+        plan.speed_m_s = hold::tip_speed(plan.speed_m_s, aim.elevation_rad);
+        let noise = StrokeNoise::olympiad(self.settings.noise);
+        let (aim, speed_m_s) = noise.err(aim, plan.speed_m_s, self.ball_radius_m, &mut self.rng);
+        plan.speed_m_s = speed_m_s;
         let centre = plan.cue_ball.extend(self.ball_radius_m);
         Stroke::at_ball(aim.limited(), centre, self.ball_radius_m, plan.speed_m_s)
     }
@@ -528,11 +500,4 @@ fn command(command: Command, out: &mut Outcome) {
 
 fn move_cue(path: CuePath, out: &mut Outcome) {
     command(Command::MoveCue(Arc::new(path)), out);
-}
-
-/// A number from the standard normal distribution (Box and Muller 1958).
-fn normal(rng: &mut Pcg64Mcg) -> f64 {
-    let (u, angle): (f64, f64) = (rng.random(), rng.random());
-    // 1 − u lies in (0, 1], so that the logarithm exists.
-    (-2.0 * libm::log(1.0 - u)).sqrt() * libm::cos(std::f64::consts::TAU * angle)
 }

@@ -100,8 +100,31 @@ pub(super) fn break_strength(rng: &mut impl rand::Rng) -> f64 {
 }
 
 fn at_cut(to_ball_m: f64, cut_rad: f64, object_m_s: f64) -> f64 {
+    launch_speed(to_ball_m, before_meeting(cut_rad, object_m_s)) / BALL_PER_TIP_SPEED
+}
+
+/// Speed of a ball that meets another at a cut so that this leaves at `object_m_s` [m/s].
+pub(super) fn before_meeting(cut_rad: f64, object_m_s: f64) -> f64 {
     let shared = 0.5 * (1.0 + BALL_RESTITUTION) * libm::cos(cut_rad).max(0.05);
-    launch_speed(to_ball_m, object_m_s / shared) / BALL_PER_TIP_SPEED
+    object_m_s / shared
+}
+
+/// Speed that a ball must start with to be at `arrival_m_s` at the end of its way [m/s], whose
+/// parts `legs_m` are joined by cushions.
+pub(super) fn launch_by_cushions(legs_m: &[f64], arrival_m_s: f64) -> f64 {
+    let mut speed = arrival_m_s;
+    for (i, leg) in legs_m.iter().enumerate().rev() {
+        speed = launch_speed(*leg, speed);
+        if i > 0 {
+            speed /= CUSHION_RESTITUTION;
+        }
+    }
+    speed
+}
+
+/// Speed that a ball must start with to fall at the end of its way [m/s].
+pub(super) fn launch_to_pocket(legs_m: &[f64]) -> f64 {
+    launch_by_cushions(legs_m, ARRIVAL_M_S)
 }
 
 fn limited(speed_m_s: f64) -> f64 {

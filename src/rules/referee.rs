@@ -238,6 +238,17 @@ impl Referee {
         Event::Command(Command::Rack(Racking { serial: self.racks, balls }))
     }
 
+    /// Hears what a whole shot did, and sees the table after it: for whoever tries shots on a table
+    /// of their own.
+    pub(crate) fn watch_shot(&mut self, facts: &[Fact], after: &Snapshot) -> Sayings {
+        let mut sayings = Sayings::new();
+        for fact in facts {
+            let fact = self.seen(fact, after);
+            sayings.extend(self.handle(&fact));
+        }
+        sayings
+    }
+
     /// Hears one fact. Facts come in time order.
     pub fn handle(&mut self, fact: &Fact) -> Sayings {
         if let FactKind::BallPlaced { ball, ok: true, .. } = fact.kind

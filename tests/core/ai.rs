@@ -1,5 +1,6 @@
 //! The paper's computer player, without physics: its table is made of positions.
 
+mod ideas;
 mod plan;
 mod player;
 mod stroke;

@@ -1,0 +1,118 @@
+//! The searching player: geometry proposes, its own copy of the simulation decides under the
+//! player's own noise, a value of the position stands for what comes after.
+
+mod aim;
+
+mod choosing;
+
+mod decision;
+pub use decision::{Considered, Decision, Deliberation, PlannedShot, Thoughts};
+
+mod outcome;
+pub use outcome::Outcome;
+
+mod placing;
+
+mod race;
+
+mod search;
+
+mod task;
+pub use task::{Task, TaskKind};
+
+mod trial;
+
+mod value;
+
+mod workers;
+pub use workers::{Inline, Workers};
+
+mod world;
+
+use super::noise::StrokeNoise;
+use super::player::Level;
+use crate::ball::{Ball, BallState};
+use crate::ids::GameKind;
+use crate::physics::Simulation;
+use crate::table::{Bed, Table};
+use crate::units::Seconds;
+use race::Races;
+use std::sync::Arc;
+use world::World;
+
+/// What a mind is made of.
+#[derive(Debug, Clone)]
+pub struct MindSetup {
+    /// A simulation of the table, with the game's laws and any balls: the player's own copy.
+    pub simulation: Simulation,
+    /// The balls of the game.
+    pub balls: Vec<Ball>,
+    /// The table.
+    pub table: Arc<Table>,
+    /// Its playing area.
+    pub bed: Bed,
+    /// Radius of every ball [m].
+    pub ball_radius_m: f64,
+    /// Radius of the tip [m].
+    pub tip_radius_m: f64,
+    /// How long before a stroke a command must be given [s]: a step of the solver, or 0.
+    pub delay_s: Seconds,
+    /// What is played.
+    pub game: GameKind,
+    /// How far it looks.
+    pub level: Level,
+    /// How its strokes err, and what it reckons with.
+    pub noise: StrokeNoise,
+    /// Shots that it may simulate for a decision.
+    pub simulations: u32,
+}
+
+/// What a searching player knows besides the question that it is asked.
+#[derive(Debug)]
+pub struct Mind {
+    setup: MindSetup,
+    races: Races,
+}
+
+impl std::ops::Deref for Mind {
+    type Target = MindSetup;
+
+    fn deref(&self) -> &MindSetup {
+        &self.setup
+    }
+}
+
+impl Mind {
+    /// A mind that has not thought yet.
+    pub fn new(setup: MindSetup) -> Self {
+        let races = Races::new(setup.game, &setup.noise);
+        Mind { setup, races }
+    }
+
+    /// Answers a question. The same question, mind and seed give the same answer, however many
+    /// workers there are.
+    pub fn deliberate(&self, task: &Task, workers: &dyn Workers) -> Deliberation {
+        self.answer(task, workers).unwrap_or_else(|| Deliberation {
+            decision: Decision::Nothing,
+            thoughts: Thoughts::default(),
+            simulations: 0,
+        })
+    }
+
+    fn answer(&self, task: &Task, workers: &dyn Workers) -> Option<Deliberation> {
+        let lies: Vec<_> = task.lies.iter().copied().map(world::at_rest).collect();
+        let turn = task.turn.clone();
+        let world = World::new(self, &lies, task.referee.clone(), turn).ok()?;
+        match task.kind {
+            TaskKind::Shoot => search::shoot(self, task, &world, workers),
+            TaskKind::Place(zone) => placing::place(self, task, &world, zone, workers),
+            TaskKind::Choose => choosing::choose(self, task, &world),
+        }
+    }
+
+    /// The balls of the game where they lie.
+    fn balls_at(&self, lies: &[BallState]) -> Vec<(Ball, BallState)> {
+        let ball = |state: &BallState| self.balls.iter().find(|ball| ball.id == state.id);
+        lies.iter().filter_map(|state| Some((ball(state)?.clone(), *state))).collect()
+    }
+}

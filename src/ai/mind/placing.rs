@@ -1,0 +1,78 @@
+//! Ball in hand: where the cue ball is put down.
+
+use super::aim::{self, Touch};
+use super::decision::{Decision, Deliberation, Thoughts};
+use super::world::World;
+use super::{Mind, Outcome, Task, Workers, value};
+use crate::ai::ideas::{Repertoire, ideas, spots};
+use crate::ai::plan::Goal;
+use crate::events::Zone;
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+
+/// Ideas that are tried from each spot.
+const IDEAS: usize = 3;
+/// Speeds over the least one.
+const SPEEDS: [f64; 3] = [1.2, 1.7, 2.5];
+/// Contact points upwards.
+const HEIGHTS: [f64; 3] = [0.0, -0.3, 0.3];
+
+/// Decides where in `zone` the cue ball is put down: where the best shot is to be had.
+pub fn place(
+    mind: &Mind,
+    task: &Task,
+    world: &World,
+    zone: Zone,
+    workers: &dyn Workers,
+) -> Option<Deliberation> {
+    let goal = Goal::of(&world.turn, &world.view, Some(zone));
+    let mut rng = Pcg64Mcg::seed_from_u64(task.seed);
+    let spots = spots(&world.view, zone, &goal, &mind.noise, &mut rng);
+    let per_spot = IDEAS * SPEEDS.len() * HEIGHTS.len();
+    let affordable = (mind.simulations as usize / per_spot).max(1);
+    let tried = spots.len().min(affordable);
+    let outcomes = workers.run(tried, &|job| {
+        let Ok(world) = world.with_cue_ball(mind, zone, spots[job]) else {
+            return Outcome { value: -1.0, ..Outcome::default() };
+        };
+        best_shot(mind, &world, zone)
+    });
+    let mut order: Vec<usize> = (0..tried).collect();
+    order.sort_by(|a, b| outcomes[*b].value.total_cmp(&outcomes[*a].value));
+    let simulations = outcomes.iter().map(|outcome| outcome.simulations).sum();
+    // What was not tried comes last, as geometry ranks it.
+    let order = order.into_iter().chain(tried..spots.len());
+    let decision = Decision::Place(order.map(|n| spots[n]).collect());
+    Some(Deliberation { decision, thoughts: Thoughts::default(), simulations })
+}
+
+/// What the best shot from here is worth.
+fn best_shot(mind: &Mind, world: &World, zone: Zone) -> Outcome {
+    let value = value::position(mind, world, Some(zone));
+    let mut best = Outcome { value: 0.5 * value, ..Outcome::default() };
+    let Some(cue) = world.view.cue_ball else { return best };
+    let goal = Goal::of(&world.turn, &world.view, Some(zone));
+    let miss = mind.races.prospects(world.referee().state()).miss;
+    let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
+    let mut simulations = 0;
+    for idea in ideas.iter().take(IDEAS) {
+        for factor in SPEEDS {
+            for height in HEIGHTS {
+                let speed_m_s = factor * idea.speed_least_m_s;
+                let outcome = aim::best(mind, world, idea, Touch { speed_m_s, side: 0.0, height });
+                simulations += outcome.simulations;
+                if !outcome.success {
+                    continue;
+                }
+                let worth = match idea.pocket {
+                    Some(_) => idea.chance * outcome.value + (1.0 - idea.chance) * miss,
+                    None => outcome.value,
+                };
+                if best.value < worth {
+                    best = Outcome { value: worth, ..outcome };
+                }
+            }
+        }
+    }
+    Outcome { simulations, ..best }
+}

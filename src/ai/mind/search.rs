@@ -1,0 +1,370 @@
+//! The next stroke: ideas, each with many touches, tried without noise; the best of them under the
+//! player's own noise, by successive halving with common errors; and for the last few one more
+//! look at the position that they leave.
+
+use super::aim::{self, Touch};
+use super::decision::{Considered, Decision, Deliberation, PlannedShot, Thoughts};
+use super::trial::{self, Trial};
+use super::value;
+use super::world::World;
+use super::{Mind, Outcome, Task, Workers};
+use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
+use crate::ai::plan::Goal;
+use crate::ai::player::Level;
+use crate::cast::seed_of;
+
+/// Hardest tip [m/s], but for a break.
+const SPEED_MOST_M_S: f64 = 6.0;
+/// Hardest tip of a break [m/s].
+const BREAK_SPEED_M_S: f64 = 7.0;
+
+/// How much is tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Breadth {
+    /// Ideas that are tried with all touches, and all that are tried at all.
+    ideas: (usize, usize),
+    /// Speeds over the least one.
+    speeds: &'static [f64],
+    /// Contact points upwards, and to the right.
+    heights: &'static [f64],
+    sides: &'static [f64],
+    /// Shots that are tried with noise.
+    leaders: usize,
+    /// How often in the first round.
+    first_round: u32,
+    /// Positions after each of the last shots that are looked at again.
+    second_look: u32,
+}
+
+impl Breadth {
+    /// What a number of simulations is enough for.
+    fn of(level: Level, simulations: u32) -> Self {
+        const CLUB: Breadth = Breadth {
+            ideas: (0, 5),
+            speeds: &[1.5],
+            heights: &[0.0],
+            sides: &[0.0],
+            leaders: 5,
+            first_round: 3,
+            second_look: 0,
+        };
+        const FULL: Breadth = Breadth {
+            ideas: (6, 24),
+            speeds: &[1.12, 1.4, 1.8, 2.4, 3.2],
+            heights: &[0.0, -0.2, -0.4, 0.2, 0.4],
+            sides: &[0.0, -0.3, 0.3],
+            leaders: 24,
+            first_round: 8,
+            second_look: 6,
+        };
+        match (level, simulations) {
+            (Level::Paper | Level::Club, 0..=60) => CLUB,
+            (_, 0..=300) => {
+                Breadth { ideas: (0, 8), leaders: 8, first_round: 4, second_look: 0, ..FULL }
+            }
+            (_, 301..=1500) => Breadth {
+                ideas: (4, 14),
+                speeds: &[1.12, 1.6, 2.4],
+                heights: &[0.0, -0.3, 0.3],
+                sides: &[0.0],
+                leaders: 12,
+                first_round: 8,
+                second_look: 2,
+            },
+            _ => FULL,
+        }
+    }
+}
+
+/// A shot that is still in question.
+#[derive(Debug, Clone)]
+struct Contender {
+    trial: Trial,
+    /// What it is worth before it was tried with noise.
+    promise: f64,
+    samples: u32,
+    successes: u32,
+    legals: u32,
+    value_sum: f64,
+    /// The value after a second look.
+    looked: Option<f64>,
+}
+
+impl Contender {
+    fn value(&self) -> f64 {
+        if self.samples == 0 { self.promise } else { self.value_sum / f64::from(self.samples) }
+    }
+
+    fn take(&mut self, outcome: &Outcome) {
+        self.samples += 1;
+        self.successes += u32::from(outcome.success);
+        self.legals += u32::from(outcome.legal);
+        self.value_sum += outcome.value;
+    }
+}
+
+/// A search that is under way.
+struct Search<'a> {
+    mind: &'a Mind,
+    task: &'a Task,
+    world: &'a World,
+    workers: &'a dyn Workers,
+    ideas: Vec<Idea>,
+    simulations: u32,
+}
+
+/// Decides about the next stroke.
+pub fn shoot(
+    mind: &Mind,
+    task: &Task,
+    world: &World,
+    workers: &dyn Workers,
+) -> Option<Deliberation> {
+    let cue = world.view.cue_ball?;
+    let goal = Goal::of(&world.turn, &world.view, task.played_from);
+    let repertoire =
+        if mind.level == Level::Champion { Repertoire::Full } else { Repertoire::Plain };
+    let ideas = ideas(&world.view, cue, &goal, &mind.noise, repertoire);
+    let mut search = Search { mind, task, world, workers, ideas, simulations: 0 };
+    let breadth = Breadth::of(mind.level, mind.simulations);
+    let mut contenders = search.without_noise(&breadth);
+    search.halve(&mut contenders, &breadth);
+    search.look_again(&mut contenders, &breadth);
+    search.conclude(contenders)
+}
+
+impl Search<'_> {
+    /// All ideas with their touches, tried as they are meant; the most promising first.
+    fn without_noise(&mut self, breadth: &Breadth) -> Vec<Contender> {
+        let tries: Vec<(usize, Touch)> = self
+            .ideas
+            .iter()
+            .take(breadth.ideas.1)
+            .enumerate()
+            .flat_map(|(n, idea)| touches(idea, n < breadth.ideas.0, breadth).map(move |t| (n, t)))
+            .collect();
+        let (mind, world, ideas) = (self.mind, self.world, &self.ideas);
+        let outcomes = self.workers.run(tries.len(), &|job| {
+            let (n, touch) = tries[job];
+            aim::best(mind, world, &ideas[n], touch)
+        });
+        let miss = mind.races.prospects(world.referee().state()).miss;
+        let mut contenders: Vec<Contender> = tries
+            .iter()
+            .zip(&outcomes)
+            .map(|((n, _), outcome)| {
+                self.simulations += outcome.simulations;
+                let idea = &self.ideas[*n];
+                let promise = match (outcome.success, idea.pocket.is_some()) {
+                    (true, true) => idea.chance * outcome.value + (1.0 - idea.chance) * miss,
+                    (true, false) => outcome.value,
+                    // It may still be the least bad.
+                    (false, _) => 0.5 * outcome.value,
+                };
+                let trial = Trial { idea: *n, aim: outcome.aim, speed_m_s: outcome.speed_m_s };
+                Contender {
+                    trial,
+                    promise,
+                    samples: 0,
+                    successes: 0,
+                    legals: u32::from(outcome.legal),
+                    value_sum: 0.0,
+                    looked: None,
+                }
+            })
+            .collect();
+        // Stable: of equal ones the first that was thought of.
+        contenders.sort_by(|a, b| b.promise.total_cmp(&a.promise));
+        diverse(contenders, breadth.leaders, &self.ideas)
+    }
+
+    /// Tries the leaders under the player's noise: all a few times, the better half twice as
+    /// often, and so on. All err in the same way, so that luck decides nothing.
+    fn halve(&mut self, contenders: &mut [Contender], breadth: &Breadth) {
+        let mut left = contenders.len();
+        let (mut done, mut target) = (0, breadth.first_round);
+        if self.mind.noise.is_none() {
+            target = 1;
+        }
+        while 0 < left && !self.workers.is_cancelled() {
+            let rounds = (target - done) as usize;
+            let (mind, world, ideas, task) = (self.mind, self.world, &self.ideas, self.task);
+            let leaders = &contenders[..left];
+            let outcomes = self.workers.run(left * rounds, &|job| {
+                let trial = &leaders[job / rounds].trial;
+                let seed = seed_of(task.seed, u64::from(done) + (job % rounds) as u64);
+                let stroke = (trial.aim, trial.speed_m_s);
+                trial::with_noise(mind, world, &ideas[trial.idea], stroke, seed)
+            });
+            for (n, outcome) in outcomes.iter().enumerate() {
+                contenders[n / rounds].take(outcome);
+                self.simulations += outcome.simulations;
+            }
+            contenders[..left].sort_by(|a, b| b.value().total_cmp(&a.value()));
+            let is_enough = mind.noise.is_none() || self.mind.simulations < self.simulations;
+            if left <= 3 || is_enough {
+                break;
+            }
+            left = left.div_ceil(2);
+            (done, target) = (target, 2 * target);
+        }
+    }
+
+    /// Looks at the positions that the last few leave by a small search of their own.
+    fn look_again(&mut self, contenders: &mut [Contender], breadth: &Breadth) {
+        const LAST: usize = 4;
+        let looks = breadth.second_look as usize;
+        if looks == 0 || self.workers.is_cancelled() {
+            return;
+        }
+        let last = contenders.len().min(LAST);
+        let (mind, world, ideas, task) = (self.mind, self.world, &self.ideas, self.task);
+        let looks = if mind.noise.is_none() { 1 } else { looks };
+        let leaders = &contenders[..last];
+        let outcomes = self.workers.run(last * looks, &|job| {
+            let trial = &leaders[job / looks].trial;
+            let seed = seed_of(task.seed, (job % looks) as u64);
+            second_look(mind, world, &ideas[trial.idea], trial, seed)
+        });
+        for (n, seen) in outcomes.chunks(looks).enumerate() {
+            let sum: f64 = seen.iter().map(|outcome| outcome.value).sum();
+            contenders[n].looked = Some(sum / looks as f64);
+            self.simulations += seen.iter().map(|outcome| outcome.simulations).sum::<u32>();
+        }
+        // The first estimate has more samples, the second one sees further.
+        let both = |contender: &Contender| {
+            contender.looked.map_or(f64::NEG_INFINITY, |looked| 0.5 * (looked + contender.value()))
+        };
+        contenders[..last].sort_by(|a, b| both(b).total_cmp(&both(a)));
+    }
+
+    fn conclude(self, contenders: Vec<Contender>) -> Option<Deliberation> {
+        let first = contenders.first()?;
+        let share = |count: u32, contender: &Contender| {
+            if contender.samples == 0 {
+                0.0
+            } else {
+                f64::from(count) / f64::from(contender.samples)
+            }
+        };
+        let idea = self.ideas[first.trial.idea].clone();
+        let shot = PlannedShot {
+            aim: first.trial.aim,
+            speed_m_s: first.trial.speed_m_s,
+            call: trial::call(&idea, self.world.turn.calls),
+            success: share(first.successes, first),
+            value: first.value(),
+            idea,
+        };
+        let considered = |(n, contender): (usize, &Contender)| Considered {
+            idea: self.ideas[contender.trial.idea].clone(),
+            aim: contender.trial.aim,
+            speed_m_s: contender.trial.speed_m_s,
+            success: share(contender.successes, contender),
+            legal: share(contender.legals, contender),
+            value: contender.value(),
+            samples: contender.samples,
+            chosen: n == 0,
+        };
+        let candidates = contenders.iter().enumerate().map(considered).collect();
+        let lines = self.ideas.iter().flat_map(|idea| idea.lines.iter().copied()).collect();
+        Some(Deliberation {
+            decision: Decision::Shoot(Box::new(shot)),
+            thoughts: Thoughts { candidates, lines },
+            simulations: self.simulations,
+        })
+    }
+}
+
+/// How an idea is tried.
+fn touches<'a>(
+    idea: &'a Idea,
+    is_leading: bool,
+    breadth: &'a Breadth,
+) -> impl Iterator<Item = Touch> + 'a {
+    let is_break = idea.kind == IdeaKind::Break;
+    let (most, least) = match is_break {
+        true => (BREAK_SPEED_M_S, 0.8 * BREAK_SPEED_M_S),
+        false => (SPEED_MOST_M_S, idea.speed_least_m_s),
+    };
+    let sides = if is_leading { breadth.sides } else { &breadth.sides[..1] };
+    let heights =
+        if is_leading { breadth.heights } else { &breadth.heights[..breadth.heights.len().min(3)] };
+    let speeds = breadth.speeds.iter().map(move |factor| (factor * least).min(most));
+    let mut last = 0.0;
+    speeds.filter(move |speed| last != std::mem::replace(&mut last, *speed)).flat_map(
+        move |speed_m_s| {
+            heights.iter().flat_map(move |height| {
+                sides.iter().map(move |side| Touch { speed_m_s, side: *side, height: *height })
+            })
+        },
+    )
+}
+
+/// The best ones, of which no idea has more than a third, and where anything is played that
+/// pockets nothing, some of that too.
+fn diverse(contenders: Vec<Contender>, wanted: usize, ideas: &[Idea]) -> Vec<Contender> {
+    let most = wanted.div_ceil(3);
+    let mut of_idea = vec![0; ideas.len()];
+    let mut taken = Vec::with_capacity(wanted);
+    let mut rest = Vec::new();
+    for contender in contenders {
+        let count = &mut of_idea[contender.trial.idea];
+        if taken.len() < wanted && *count < most {
+            *count += 1;
+            taken.push(contender);
+        } else {
+            rest.push(contender);
+        }
+    }
+    rest.truncate(wanted - taken.len());
+    taken.append(&mut rest);
+    taken
+}
+
+/// Plays a shot once more as the arm makes it, and looks for the best answer to what it leaves.
+fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64) -> Outcome {
+    const ANSWERS: usize = 4;
+    const SPEEDS: [f64; 2] = [1.2, 1.8];
+    const HEIGHTS: [f64; 3] = [0.0, -0.3, 0.3];
+    let stroke = (trial.aim, trial.speed_m_s);
+    let (aim, speed_m_s) = trial::erred(mind, stroke, seed);
+    let call = trial::call(idea, world.turn.calls);
+    let nothing = Outcome { simulations: 1, ..Outcome::default() };
+    let Ok(mut played) = world.play(mind, aim, speed_m_s, call.as_ref()) else { return nothing };
+    let player = world.player();
+    let value = value::after(mind, player, &mut played);
+    let Some(next) = value::next(mind, &mut played) else { return Outcome { value, ..nothing } };
+    let Some(cue) = next.view.cue_ball.filter(|_| next.turn.options.is_empty()) else {
+        return Outcome { value, ..nothing };
+    };
+    let goal = Goal::of(&next.turn, &next.view, None);
+    let answers = ideas(&next.view, cue, &goal, &mind.noise, Repertoire::Plain);
+    let pots = answers.iter().filter(|answer| answer.pocket.is_some()).take(ANSWERS);
+    let prospects = mind.races.prospects(next.referee().state());
+    let (mut best, mut simulations) = (value::seen_by(player, &next, value), 1);
+    let mut attack: Option<f64> = None;
+    for answer in pots {
+        for factor in SPEEDS {
+            for height in HEIGHTS {
+                let speed_m_s = factor * answer.speed_least_m_s;
+                let outcome =
+                    aim::best(mind, &next, answer, Touch { speed_m_s, side: 0.0, height });
+                simulations += outcome.simulations;
+                if outcome.success {
+                    let worth =
+                        answer.chance * outcome.value + (1.0 - answer.chance) * prospects.miss;
+                    attack = Some(attack.map_or(worth, |known| known.max(worth)));
+                }
+            }
+        }
+    }
+    if let Some(attack) = attack {
+        // What geometry says of a safety stays; of the pots the simulation knows more.
+        let contact = answers.iter().filter(|a| a.pocket.is_none()).map(|a| a.chance);
+        let contact = contact.fold(0.0, f64::max);
+        let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
+        best = attack.max(defence);
+    }
+    Outcome { value: value::seen_by(player, &next, best), simulations, ..nothing }
+}

@@ -1,0 +1,88 @@
+//! What a position is worth: the chance that whoever is called wins from there.
+
+use super::race::Prospects;
+use super::world::{Played, World};
+use super::{Mind, choosing};
+use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
+use crate::ai::plan::Goal;
+use crate::events::{BallInHand, ShotKind, TurnAfter, Zone};
+use crate::ids::{GameKind, PlayerId};
+
+/// Chance of a ball from anywhere on the bed.
+const IN_HAND: f64 = 0.95;
+/// The same from behind the head string, or out of the D.
+const IN_KITCHEN: f64 = 0.75;
+/// Chance that a break pockets something and is legal.
+const BREAK: f64 = 0.55;
+
+/// Chance that `player` wins after a shot.
+pub fn after(mind: &Mind, player: PlayerId, played: &mut Played) -> f64 {
+    if played.verdict.turn == TurnAfter::End {
+        return match played.verdict.winner {
+            Some(winner) => f64::from(u8::from(winner == player)),
+            None => 0.5,
+        };
+    }
+    let Some(world) = next(mind, played) else { return 0.5 };
+    seen_by(player, &world, position(mind, &world, None))
+}
+
+/// The chance of `player` if that of whoever is at the table is `value`.
+pub fn seen_by(player: PlayerId, world: &World, value: f64) -> f64 {
+    if world.player() == player { value } else { 1.0 - value }
+}
+
+/// The position after a shot, if the game goes on.
+pub fn next(mind: &Mind, played: &mut Played) -> Option<World> {
+    let turn = played.turn.clone()?;
+    let lies = played.lies();
+    World::new(mind, &lies, played.referee.clone(), turn).ok()
+}
+
+/// Chance that whoever is at the table wins, as far as geometry can tell.
+pub fn position(mind: &Mind, world: &World, played_from: Option<Zone>) -> f64 {
+    if !world.turn.options.is_empty() {
+        return choosing::best(mind, world).map_or(0.5, |(_, value)| value);
+    }
+    let prospects = mind.races.prospects(world.referee().state());
+    let in_hand = |chance: f64| chance * prospects.pot + (1.0 - chance) * prospects.miss;
+    if world.turn.shot == ShotKind::Break {
+        return in_hand(BREAK * mind.races.pot);
+    }
+    let Some(cue) = world.view.cue_ball else {
+        return in_hand(match world.turn.ball_in_hand {
+            BallInHand::Kitchen | BallInHand::D => IN_KITCHEN * mind.races.pot,
+            BallInHand::Anywhere | BallInHand::None => IN_HAND.min(1.05 * mind.races.pot),
+        });
+    };
+    if matches!(mind.game, GameKind::FreeCarom | GameKind::ThreeCushion) {
+        return in_hand(carom(mind, world));
+    }
+    let goal = Goal::of(&world.turn, &world.view, played_from);
+    let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
+    of_ideas(&ideas, &prospects)
+}
+
+/// The better of the easiest pot and of a safety.
+fn of_ideas(ideas: &[Idea], prospects: &Prospects) -> f64 {
+    let best = |is_wanted: &dyn Fn(&Idea) -> bool| {
+        ideas.iter().filter(|idea| is_wanted(idea)).map(|idea| idea.chance).fold(0.0, f64::max)
+    };
+    let pot = best(&|idea| idea.pocket.is_some());
+    let contact = best(&|idea| idea.kind != IdeaKind::Desperate);
+    let attack = pot * prospects.pot + (1.0 - pot) * prospects.miss;
+    let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
+    attack.max(defence)
+}
+
+/// Chance of a carom: the closer the balls lie together the better, where a gathered lie lasts.
+fn carom(mind: &Mind, world: &World) -> f64 {
+    let pot = mind.races.pot;
+    if mind.game == GameKind::ThreeCushion {
+        return pot;
+    }
+    let Some(cue) = world.view.cue_ball else { return pot };
+    let spread = world.view.balls.iter().map(|ball| ball.position.distance(cue));
+    let nearness = libm::exp(-spread.fold(0.0, f64::max));
+    pot * (0.7 + 0.5 * nearness)
+}

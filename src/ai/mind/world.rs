@@ -1,0 +1,254 @@
+//! A table of one's own, to try shots on.
+
+use super::Mind;
+use crate::ai::view::{SeenBall, TableView2d};
+use crate::ball::{BallPlace, BallState};
+use crate::cue::Aim;
+use crate::events::{
+    Call, Command, Event, Fact, FactKind, FactSet, Source, Topic, Turn, TurnAfter, Verdict, Zone,
+};
+use crate::ids::{BallId, PlayerId};
+use crate::physics::{PhysicsError, Simulation, Snapshot, Strike};
+use crate::rules::Referee;
+use crate::units::Seconds;
+use glam::{DQuat, DVec2, DVec3};
+use std::sync::Arc;
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// A shot that lasts longer is given up [s].
+const LONGEST_SHOT_S: Seconds = 120.0;
+/// After so long, balls that were spotted lie [s].
+const SPOTTING_S: Seconds = 0.01;
+
+/// A position: where the balls lie and how the game stands, before a shot.
+#[derive(Debug, Clone)]
+pub struct World {
+    start: Simulation,
+    /// Knows the game; has heard where the cue ball was put.
+    referee: Referee,
+    /// The position from above.
+    pub view: TableView2d,
+    /// Which ball is struck, and where it lies [m]; none if it is in hand.
+    pub cue_ball: Option<DVec3>,
+    /// What the game asks for.
+    pub turn: Arc<Turn>,
+}
+
+/// What came of a shot.
+#[derive(Debug)]
+pub struct Played {
+    /// What happened, in time order.
+    pub facts: Vec<Fact>,
+    /// What the rules say of it.
+    pub verdict: Arc<Verdict>,
+    /// The game after it.
+    pub referee: Referee,
+    /// Who is called to the table, and for what; none if the game is over.
+    pub turn: Option<Arc<Turn>>,
+    end: Simulation,
+    spotting: Option<Command>,
+}
+
+impl World {
+    /// A position of a game. `referee` has announced `turn`.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if the balls cannot lie so.
+    pub fn new(
+        mind: &Mind,
+        lies: &[BallState],
+        referee: Referee,
+        turn: Arc<Turn>,
+    ) -> Result<Self, PhysicsError> {
+        let start = mind.simulation.with_balls(mind.balls_at(lies))?;
+        Ok(Self::of(mind, start, lies, referee, turn))
+    }
+
+    fn of(
+        mind: &Mind,
+        start: Simulation,
+        lies: &[BallState],
+        referee: Referee,
+        turn: Arc<Turn>,
+    ) -> Self {
+        let lying = lies.iter().filter(|ball| ball.place == BallPlace::OnTable);
+        let cue_ball = lying.clone().find(|ball| ball.id == turn.cue_ball).map(|b| b.position);
+        let balls = lying.filter(|ball| ball.id != turn.cue_ball);
+        let view = TableView2d {
+            cue_ball: cue_ball.map(DVec3::truncate),
+            balls: balls
+                .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
+                .collect(),
+            ball_radius_m: mind.ball_radius_m,
+            bed: mind.bed,
+            pockets: mind.table.pockets.clone(),
+        };
+        World { start, referee, view, cue_ball, turn }
+    }
+
+    /// The same with the cue ball put down in a zone [m].
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if it cannot lie there.
+    pub fn with_cue_ball(&self, mind: &Mind, zone: Zone, at: DVec2) -> Result<Self, PhysicsError> {
+        let mut lies = self.start.snapshot(self.start.now_s()).balls;
+        let cue_ball = self.turn.cue_ball;
+        for ball in lies.iter_mut().filter(|ball| ball.id == cue_ball) {
+            *ball = BallState::at_rest(cue_ball, at.extend(mind.ball_radius_m));
+        }
+        let mut referee = self.referee.clone();
+        let kind = FactKind::BallPlaced { ball: cue_ball, zone, ok: true };
+        referee.handle(&Fact { time_s: 0.0, kind });
+        Self::new(mind, &lies, referee, self.turn.clone())
+    }
+
+    /// The position after commands of the rules: balls on their spots, a rack.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if the balls cannot lie so.
+    pub fn changed_by(
+        &self,
+        mind: &Mind,
+        commands: &[Command],
+        referee: Referee,
+        turn: Arc<Turn>,
+    ) -> Result<Self, PhysicsError> {
+        let mut simulation = self.start.clone();
+        let now = simulation.now_s();
+        for command in commands {
+            simulation.apply(now, command)?;
+        }
+        if !commands.is_empty() {
+            simulation.advance(now + SPOTTING_S, FactSet::NONE, &mut Vec::new())?;
+        }
+        let balls = simulation.snapshot(simulation.now_s()).balls;
+        let lies: Vec<_> = balls.into_iter().map(at_rest).collect();
+        Self::new(mind, &lies, referee, turn)
+    }
+
+    /// Who shoots.
+    pub fn player(&self) -> PlayerId {
+        self.turn.player
+    }
+
+    /// How the game stands.
+    pub fn referee(&self) -> &Referee {
+        &self.referee
+    }
+
+    /// The struck world, before anything has happened.
+    fn struck(&self, mind: &Mind, aim: Aim, speed_m_s: f64) -> Result<Simulation, PhysicsError> {
+        let cue_ball = self.cue_ball.ok_or(PhysicsError::UnknownBall(self.turn.cue_ball))?;
+        let aim = aim.limited();
+        let strike = Strike {
+            speed_m_s,
+            azimuth_deg: aim.azimuth_rad / DEGREE,
+            elevation_deg: aim.elevation_rad / DEGREE,
+            side_offset: aim.side_offset,
+            height_offset: aim.height_offset,
+        };
+        let mut simulation = self.start.clone();
+        let now = simulation.now_s();
+        // With fixed steps a command acts on the grid; the tip must not have set out by then.
+        let start_s = now + mind.delay_s;
+        let path = strike.path(cue_ball, mind.ball_radius_m, mind.tip_radius_m, start_s)?;
+        let lift_s = path.end_s().unwrap_or(start_s);
+        simulation.apply(now, &Command::MoveCue(Arc::new(path)))?;
+        simulation.apply(lift_s, &Command::LiftCue)?;
+        Ok(simulation)
+    }
+
+    /// Which way `ball` goes right after the cue ball met it; none if the cue ball meets something
+    /// else first, or nothing.
+    pub fn first_way(&self, mind: &Mind, aim: Aim, speed_m_s: f64, ball: BallId) -> Option<DVec2> {
+        let mut simulation = self.struck(mind, aim, speed_m_s).ok()?;
+        let stop = FactSet::of(&[Topic::BallsCollided, Topic::Settled]);
+        let mut facts = Vec::new();
+        simulation.advance(LONGEST_SHOT_S, stop, &mut facts).ok()?;
+        let met = facts.iter().find_map(|fact| match fact.kind {
+            FactKind::BallsCollided { a, b, .. } => Some((a, b)),
+            _ => None,
+        })?;
+        let cue_ball = self.turn.cue_ball;
+        if met != (cue_ball, ball) && met != (ball, cue_ball) {
+            return None;
+        }
+        let state = simulation.sample(ball, simulation.now_s())?;
+        state.velocity.truncate().try_normalize()
+    }
+
+    /// Plays a shot and hears the rules on it.
+    ///
+    /// # Errors
+    /// [`PhysicsError`] if the simulation cannot go on.
+    pub fn play(
+        &self,
+        mind: &Mind,
+        aim: Aim,
+        speed_m_s: f64,
+        call: Option<&Call>,
+    ) -> Result<Played, PhysicsError> {
+        let mut end = self.struck(mind, aim, speed_m_s)?;
+        let mut referee = self.referee.clone();
+        if let Some(call) = call {
+            referee.obey(Source::Ai(self.player()), &Command::Call(call.clone()));
+        }
+        let mut facts = Vec::with_capacity(32);
+        let settled = FactSet::of(&[Topic::Settled]);
+        end.advance(LONGEST_SHOT_S, settled, &mut facts)?;
+        let is_settled = matches!(facts.last(), Some(Fact { kind: FactKind::Settled { .. }, .. }));
+        if !is_settled {
+            return Err(PhysicsError::NeverRests { limit_s: LONGEST_SHOT_S });
+        }
+        let sayings = referee.watch_shot(&facts, &end.snapshot(end.now_s()));
+        let (mut verdict, mut turn, mut spotting) = (None, None, None);
+        for saying in sayings {
+            match saying {
+                Event::Verdict(said) => verdict = Some(said),
+                Event::Turn(called) => turn = Some(called),
+                Event::Command(command @ Command::SpotBalls(_)) => spotting = Some(command),
+                _ => {}
+            }
+        }
+        // The tip has met nothing: no shot, no verdict.
+        let verdict = verdict.unwrap_or_else(|| {
+            let turn = TurnAfter::Continue;
+            Arc::new(Verdict { legal: false, turn, ..Verdict::default() })
+        });
+        Ok(Played { facts, verdict, referee, turn, end, spotting })
+    }
+}
+
+impl Played {
+    /// The balls after the shot, with those on their spots that the rules put there.
+    pub fn lies(&mut self) -> Vec<BallState> {
+        if let Some(command) = self.spotting.take() {
+            let now = self.end.now_s();
+            let mut facts = Vec::new();
+            // A ball that finds no place stays off the table; the next turn says what follows.
+            let _ = self.end.apply(now, &command);
+            let _ = self.end.advance(now + SPOTTING_S, FactSet::NONE, &mut facts);
+        }
+        let Snapshot { balls, .. } = self.end.snapshot(self.end.now_s());
+        balls.into_iter().map(at_rest).collect()
+    }
+
+    /// Whether a ball fell, and where if that matters.
+    pub fn has_pocketed(&self, ball: BallId, pocket: Option<crate::ids::PocketId>) -> bool {
+        self.facts.iter().any(|fact| match fact.kind {
+            FactKind::BallPocketed { ball: fell, pocket: into, .. } => {
+                fell == ball && pocket.is_none_or(|wanted| wanted == into)
+            }
+            _ => false,
+        })
+    }
+}
+
+/// A ball that lies, as anybody can see it: not how it moves or is turned.
+pub(super) fn at_rest(ball: BallState) -> BallState {
+    BallState {
+        orientation: DQuat::IDENTITY,
+        place: ball.place,
+        ..BallState::at_rest(ball.id, ball.position)
+    }
+}
