@@ -94,12 +94,14 @@ impl ThrowTable {
 
     /// The table as a file, which [`ThrowTable::parse`] reads.
     pub fn to_toml(&self) -> String {
-        let list = |numbers: &[f64], digits: usize| {
+        // Lines stay short enough to read.
+        let list = |numbers: &[f64], digits: usize, next_line: &str| {
             let texts: Vec<String> = numbers.iter().map(|n| format!("{n:.digits$}")).collect();
-            format!("[{}]", texts.join(", "))
+            let lines: Vec<String> = texts.chunks(10).map(|line| line.join(", ")).collect();
+            format!("[{}]", lines.join(next_line))
         };
         let rows: Vec<String> =
-            self.factors.iter().map(|row| format!("  {},\n", list(row, 4))).collect();
+            self.factors.iter().map(|row| format!("  {},\n", list(row, 4, ",\n   "))).collect();
         format!(
             "# Throw compensation f over cut and speed; see `hapticbillard learn --help`.\n\
              # A cut b is aimed as (1 + f) b. Rows: cuts; columns: the cue ball's speeds.\n\
@@ -110,8 +112,8 @@ impl ThrowTable {
             self.shots,
             self.seed,
             self.shots,
-            list(&self.cuts_deg, 1),
-            list(&self.speeds_m_s, 2),
+            list(&self.cuts_deg, 1, ",\n  "),
+            list(&self.speeds_m_s, 2, ",\n  "),
             rows.concat(),
         )
     }
