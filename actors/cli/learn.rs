@@ -147,8 +147,8 @@ pub struct Taught {
     pub first: Vec<Trial>,
     /// f after each shot, mean over the seeds.
     pub mean_factors: Vec<f64>,
-    /// Mean hit rate of 10 after each shot, mean over the seeds.
-    pub mean_hits: Vec<f64>,
+    /// Mean hit rate of 10 after each shot, mean over the seeds; none where no shot counts.
+    pub mean_hits: Vec<Option<f64>>,
     /// What all have in common.
     pub summary: Summary,
 }
@@ -247,11 +247,13 @@ fn teach(
     let courses = args.courses(&condition, lesson, bar)?;
     let rates: Vec<_> = courses.iter().map(|course| lesson::mean_hit_rate(course)).collect();
     let shots = 0..lesson.shots as usize;
-    let mean = |numbers: Vec<f64>| numbers.iter().sum::<f64>() / numbers.len().max(1) as f64;
+    let mean = |numbers: Vec<f64>| {
+        (!numbers.is_empty()).then(|| numbers.iter().sum::<f64>() / numbers.len() as f64)
+    };
     let factors = |shot: usize| courses.iter().filter_map(|c| Some(c.get(shot)?.factor)).collect();
     let hits = |shot: usize| rates.iter().filter_map(|r| r.get(shot).copied().flatten()).collect();
     Ok(Taught {
-        mean_factors: shots.clone().map(|shot| mean(factors(shot))).collect(),
+        mean_factors: shots.clone().filter_map(|shot| mean(factors(shot))).collect(),
         mean_hits: shots.map(|shot| mean(hits(shot))).collect(),
         summary: Summary::of(&courses),
         first: courses.into_iter().next().unwrap_or_default(),

@@ -109,11 +109,14 @@ fn draw_hits(area: &Area<'_>, taught: &Taught) -> Result<(), Error> {
     let area = legend(area, &key)?;
     let shots = taught.first.len();
     let mut chart = axes(&area, shots, 0.0..100.0, "hits [%]", Some("shot"))?;
-    let mean = numbered(taught.mean_hits.iter().map(|rate| 1e2 * rate));
+    let percent = |rates: &[Option<f64>]| -> Points {
+        let rates = (1..).map(f64::from).zip(rates);
+        rates.filter_map(|(shot, rate)| Some((shot, 1e2 * (*rate)?))).collect()
+    };
+    let mean = percent(&taught.mean_hits);
     chart.draw_series(LineSeries::new(mean, GREY.stroke_width(1))).map_err(failed)?;
-    let rates = (1..).map(f64::from).zip(mean_hit_rate(&taught.first));
-    let rates = rates.filter_map(|(shot, rate)| Some((shot, 1e2 * rate?)));
-    chart.draw_series(LineSeries::new(rates, RED.stroke_width(2))).map_err(failed)?;
+    let own = percent(&mean_hit_rate(&taught.first));
+    chart.draw_series(LineSeries::new(own, RED.stroke_width(2))).map_err(failed)?;
     Ok(())
 }
 

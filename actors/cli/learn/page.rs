@@ -35,7 +35,9 @@ pub fn csv(course: &[Trial]) -> String {
 }
 
 fn factor(value: Option<f64>) -> String {
-    value.map_or_else(|| String::from("-"), |value| format!("{value:.2}"))
+    // Zero has no sign here.
+    let rounded = |value: f64| (1e2 * value).round() / 1e2 + 0.0;
+    value.map_or_else(|| String::from("-"), |value| format!("{:.2}", rounded(value)))
 }
 
 fn percent(value: Option<f64>) -> String {
