@@ -1,5 +1,8 @@
 //! The actor of a computer player.
 
+mod thinking;
+pub use thinking::ThinkAhead;
+
 use crate::kept::{Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::ai::Player;

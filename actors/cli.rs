@@ -5,11 +5,17 @@
 
 mod in_order;
 
+mod racks;
+
+mod plot;
+
 mod play;
 
 mod simulate;
 
 mod match_;
+
+mod tournament;
 
 mod replay;
 
@@ -70,6 +76,7 @@ enum Command {
     Play(play::PlayArgs),
     Simulate(simulate::SimulateArgs),
     Match(match_::MatchArgs),
+    Tournament(tournament::TournamentArgs),
     Replay(replay::ReplayArgs),
     Render(render::RenderArgs),
     Scene(scene::SceneArgs),
@@ -128,6 +135,7 @@ pub fn run() -> ExitCode {
         Command::Play(args) => play::run(&args, &mut out),
         Command::Simulate(args) => simulate::run(&args, &mut out),
         Command::Match(args) => match_::run(&args, &mut out),
+        Command::Tournament(args) => tournament::run(&args, &mut out),
         Command::Replay(args) => replay::run(&args, &mut out),
         Command::Render(args) => render::run(&args, &mut out),
         Command::Scene(args) => scene::run(&args, &mut out),

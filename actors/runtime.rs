@@ -2,9 +2,10 @@
 //!
 //! This is the only place that decides who runs where; results do not depend on it. Threads of a
 //! headless game: the caller's, which waits, and [`Setup::workers`] of tokio; physics and the
-//! recorder have one each where they are asked for.
+//! recorder have one each where they are asked for. A computer player that searches has a thread
+//! while it thinks, and all share workers, one a core.
 
-use crate::ai::Ai;
+use crate::ai::{Ai, ThinkAhead};
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
 use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
@@ -190,7 +191,9 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     seats.extend(
         referee.map(|core| take_seat(core, |core| crew.join("rules", Rules(core)), &table)),
     );
-    seats.extend(players.into_iter().map(|core| keep_player(core, &crew, &tell, &table)));
+    let thinker = Arc::new(ThinkAhead);
+    let players = players.into_iter().map(|core| core.with_thinker(thinker.clone()));
+    seats.extend(players.map(|core| keep_player(core, &crew, &tell, &table)));
     let observer = |core| crew.join("observer", Observer(core));
     seats.extend(setup.observers.into_iter().map(|core| take_seat(core, observer, &table)));
 

@@ -19,6 +19,9 @@ pub use plan::{
 
 mod fallback;
 
+mod settings;
+pub use settings::{Level, NOISE_USUAL, PlayerSettings};
+
 mod hold;
 pub use hold::Clearance;
 
@@ -43,6 +46,9 @@ pub use choose::{Outlook, call, choose};
 mod place;
 pub use place::{placements, zone_holds};
 
+mod insight;
+pub use insight::{insight_of_plan, insight_of_thoughts};
+
 mod learn;
 pub use learn::AimLearner;
 
@@ -52,7 +58,7 @@ mod throw_table;
 pub use throw_table::{ThrowTable, ThrowTableError};
 
 mod stroke;
-pub use stroke::{Stroke, approach, resting_pose, withdrawal};
+pub use stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 
 mod player;
-pub use player::{Level, Player, PlayerSettings};
+pub use player::Player;

@@ -3,15 +3,18 @@
 //! Lockstep runs a cast inline; the actor runtime gives each member an actor. What the scene does
 //! not name is not made.
 
-use crate::ai::{Player, PlayerSettings};
+mod computer;
+
+use crate::ai::Player;
 use crate::ball::POOL_RADIUS_M;
-use crate::ids::{BallId, PlayerId};
+use crate::ids::BallId;
 use crate::input::Human;
 use crate::physics::{PhysicsError, Simulation};
 use crate::rack::Sight;
 use crate::rules::{Referee, game};
-use crate::scene::{PlayerKind, Scene, SceneError};
+use crate::scene::{Scene, SceneError};
 use crate::table::Table;
+use computer::{Surroundings, computers};
 use std::sync::Arc;
 
 /// The cores of one game.
@@ -40,8 +43,17 @@ pub enum CastError {
     #[error(transparent)]
     Physics(#[from] PhysicsError),
     /// Computer players need a billiard table.
-    #[error("{player} is a computer player and needs a table with pockets; add [table]")]
+    #[error("{player} is a computer player and needs a table; add [table]")]
     NoTable {
+        /// Who.
+        player: String,
+    },
+    /// The paper's player needs pockets.
+    #[error(
+        "{player} is the paper's player, who aims at pockets, and this table has none; choose \
+         club, champion or a strength"
+    )]
+    NoPockets {
         /// Who.
         player: String,
     },
@@ -68,8 +80,9 @@ impl Cast {
         let radius_m = cue_ball.map_or(POOL_RADIUS_M, |(ball, _)| ball.radius_m);
         let parameters = scene.parameters();
         let tip_radius_m = parameters.tip_radius_m;
-        let simulation = Simulation::with_parameters(&table, balls, &scene.physics, parameters)?
-            .with_racks(scene.racks(&table));
+        let simulation =
+            Simulation::with_parameters(&table, balls.clone(), &scene.physics, parameters)?
+                .with_racks(scene.racks(&table));
         let played = scene.rules.map(|rules| game(rules.game));
         let is_practice = played.is_some_and(|game| game.is_practice);
         let simulation = match played {
@@ -86,23 +99,14 @@ impl Cast {
                 None => referee,
             }
         });
-        let mut players = Vec::new();
-        for (section, id) in scene.players.iter().zip([PlayerId::ONE, PlayerId::TWO]) {
-            if section.kind != PlayerKind::Paper {
-                continue;
-            }
-            let Some(bed) = table.bed else {
-                return Err(CastError::NoTable { player: section.name.clone() });
-            };
-            let seed = seed_of(scene.about.seed, u64::from(id.0));
-            let mut settings = PlayerSettings::paper(seed, scene.physics.profile);
-            settings.noise = section.noise;
-            settings.throw_factor = section.throw_factor.unwrap_or(settings.throw_factor);
-            let rails = table.clone();
-            let clearance = Arc::new(move |at, azimuth| rails.clearance_elevation(at, azimuth));
-            let pockets = table.pockets.clone();
-            players.push(Player::new(id, settings, bed, pockets, radius_m, clearance));
-        }
+        let players = computers(&Surroundings {
+            scene,
+            table: &table,
+            balls: &balls,
+            simulation: &simulation,
+            referee: referee.as_ref(),
+            ball_radius_m: radius_m,
+        })?;
         let human = scene.has_hand().then(|| {
             Human::new(scene.human_players(), table.clone())
                 .with_ball_radius(radius_m)

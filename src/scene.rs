@@ -6,17 +6,21 @@
 
 mod build;
 mod check;
+mod entrant;
 mod error;
 mod overrides;
 mod plan;
+mod player_kind;
 mod reader;
 mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use entrant::{Entrant, NoEntrant};
 pub use error::SceneError;
 pub use overrides::Overrides;
 pub use plan::{PlanKind, PlanLine};
+pub use player_kind::{PlayerKind, STRENGTH_MAX, STRENGTH_USUAL, UnknownComputer};
 
 use crate::ball::{Ball, BallFlags, SOLID_SPHERE, Spring};
 use crate::ids::{BallId, GameKind, PlayerId};
@@ -24,7 +28,6 @@ use crate::mesh::Surface;
 use crate::physics::{Equipment, Parameters, PhysicsSettings};
 use crate::table::Plane;
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 /// Largest scene file that is read [bytes].
 pub const FILE_BYTES_MAX: usize = 4 << 20;
@@ -277,35 +280,15 @@ pub struct PlayerSection {
     pub name: String,
     /// Who decides.
     pub kind: PlayerKind,
-    /// Noise of a computer's stroke, in multiples of the player's own.
-    pub noise: f64,
-    /// Throw compensation a computer starts with (paper, section 5.4.3); none: the player's own.
+    /// Noise of a computer's stroke, in multiples of the Computer Pool Olympiad's; none: what
+    /// belongs to its kind.
+    pub noise: Option<f64>,
+    /// Throw compensation of the paper's player (paper, section 5.4.3); none: the player's own.
     pub throw_factor: Option<f64>,
+    /// Shots that a computer may simulate for a decision; none: what belongs to its kind.
+    pub simulations: Option<u32>,
     /// Where it stands in the file.
     pub line: usize,
-}
-
-/// Who decides for a player.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PlayerKind {
-    /// Somebody at the input.
-    Human,
-    /// The computer player of the paper.
-    Paper,
-    /// A recording, which the input plays back.
-    Recorded,
-}
-
-impl PlayerKind {
-    /// Its name in a scene.
-    pub fn name(self) -> &'static str {
-        match self {
-            PlayerKind::Human => "human",
-            PlayerKind::Paper => "paper",
-            PlayerKind::Recorded => "recorded",
-        }
-    }
 }
 
 /// `[camera]`: there is a camera. It has no keys.

@@ -6,7 +6,7 @@ mod closed_loop;
 
 mod csv;
 
-pub(super) mod figure;
+mod figure;
 
 mod left_out;
 

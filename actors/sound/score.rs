@@ -9,7 +9,6 @@ use hapticbillard::hash::StateHash;
 use hapticbillard::lockstep::{self, Lockstep};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{RecordedInput, Recording};
-use hapticbillard::scene::PlayerKind;
 use hapticbillard::sound::{Foley, Script, Told};
 use hapticbillard::tick::{Delivered, FrameSource, Outcome, Pace, Participant};
 use hapticbillard::units::{Seconds, Tick};
@@ -43,8 +42,8 @@ pub fn score(
     let cast = stage.cast()?;
     let first = Arc::new(cast.simulation.snapshot(0.0));
     let mut script = Script::new(stage.foley(first)?, f64::from(rate_hz));
-    let acts = replay.is_some()
-        || stage.scene.players.iter().any(|player| player.kind == PlayerKind::Paper);
+    let acts =
+        replay.is_some() || stage.scene.players.iter().any(|player| player.kind.is_computer());
 
     let ear = Ear::default();
     let input = replay.map(|recording| Box::new(RecordedInput(recording)) as Box<dyn FrameSource>);

@@ -30,7 +30,7 @@ pub use workers::{Inline, Workers};
 mod world;
 
 use super::noise::StrokeNoise;
-use super::player::Level;
+use super::settings::Level;
 use crate::ball::{Ball, BallState};
 use crate::ids::GameKind;
 use crate::physics::Simulation;

@@ -10,6 +10,10 @@ use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
 
+/// The fastest tip of a computer [m/s]: a hard break. A person at a mouse reaches 6 m/s with half a
+/// window in 50 ms, and 12 m/s at most.
+pub const TIP_SPEED_MAX_M_S: f64 = 7.0;
+
 /// Duration of the approach [s].
 const APPROACH_S: Seconds = 0.8;
 /// How high the cue is led over the table on its way to the ball [m].
@@ -22,6 +26,8 @@ const ADDRESS_GAP_M: f64 = 0.015;
 const BACKSWING_MIN_M: f64 = 0.10;
 /// Backswing that each m/s of tip speed adds [s].
 const BACKSWING_PER_SPEED_S: f64 = 0.045;
+/// The longest backswing [m]: the length of a bridge.
+const BACKSWING_MAX_M: f64 = 0.40;
 /// Peak speed of the hand on its way back [m/s].
 const BACKSWING_SPEED_M_S: f64 = 0.6;
 /// How long before the contact the speed is already the planned one, as a way [m].
@@ -117,7 +123,7 @@ impl Stroke {
     /// A phase from speed u to v over the way s lasts 2 s/(u + v).
     fn phases(&self) -> [Phase; 5] {
         let speed = self.speed_m_s;
-        let backswing = BACKSWING_MIN_M + BACKSWING_PER_SPEED_S * speed;
+        let backswing = (BACKSWING_MIN_M + BACKSWING_PER_SPEED_S * speed).min(BACKSWING_MAX_M);
         let half_back = 0.5 * (backswing - ADDRESS_GAP_M);
         let run_up = backswing - STEADY_BEFORE_M;
         let follow = (FOLLOW_MIN_M + FOLLOW_PER_SPEED_S * speed).min(FOLLOW_MAX_M);

@@ -33,14 +33,25 @@ pub struct TableView2d {
 impl TableView2d {
     /// Looks at the table from above.
     pub fn of(table: &Snapshot, bed: &Bed, pockets: &[Pocket], ball_radius_m: f64) -> Self {
+        Self::with_cue_ball(table, BallId::CUE, bed, pockets, ball_radius_m)
+    }
+
+    /// The same where another ball can be the one that is struck, as in carom.
+    pub fn with_cue_ball(
+        table: &Snapshot,
+        cue_ball: BallId,
+        bed: &Bed,
+        pockets: &[Pocket],
+        ball_radius_m: f64,
+    ) -> Self {
         TableView2d {
             cue_ball: table
                 .on_table()
-                .find(|ball| ball.id == BallId::CUE)
+                .find(|ball| ball.id == cue_ball)
                 .map(|ball| ball.position.truncate()),
             balls: table
                 .on_table()
-                .filter(|ball| ball.id != BallId::CUE)
+                .filter(|ball| ball.id != cue_ball)
                 .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
                 .collect(),
             ball_radius_m,

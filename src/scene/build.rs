@@ -1,7 +1,7 @@
 //! Makes the table and the balls that a scene names.
 
 use super::{BallId, PlayerId};
-use super::{BallSection, BoxSection, PlayerKind, RackKind, Scene, SceneError, TOUCHING_M};
+use super::{BallSection, BoxSection, RackKind, Scene, SceneError, TOUCHING_M};
 use crate::ball::{Ball, BallPlace, BallState, Motion};
 use crate::ids::GameKind;
 use crate::mesh::{Face, Mesh, parse_obj};
@@ -144,7 +144,7 @@ impl Scene {
     pub fn human_players(&self) -> Vec<PlayerId> {
         let ids = [PlayerId::ONE, PlayerId::TWO];
         let at_input = self.players.iter().zip(ids);
-        at_input.filter(|(player, _)| player.kind != PlayerKind::Paper).map(|(_, id)| id).collect()
+        at_input.filter(|(player, _)| !player.kind.is_computer()).map(|(_, id)| id).collect()
     }
 
     /// An error about what stands on `line`.

@@ -201,9 +201,9 @@ fn players(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
             return wrong("a player needs a cue", "write a section [cue]");
         }
         let is_led = match player.kind {
-            PlayerKind::Paper => true,
+            kind if kind.is_computer() => true,
             PlayerKind::Human => scene.input.is_some() || has_stylus,
-            PlayerKind::Recorded => scene.input.is_some(),
+            _ => scene.input.is_some(),
         };
         if !is_led {
             let fix = "write a section [input], or [haptic] for a stylus";
@@ -215,18 +215,18 @@ fn players(scene: &Scene, root: &Section<'_>) -> Result<(), SceneError> {
                 "write [actors] and input = \"recorded:FILE\"",
             );
         }
-        if player.kind == PlayerKind::Paper && scene.cue.is_some_and(|cue| cue != CueSection::POOL)
-        {
+        let is_computer = player.kind.is_computer();
+        if is_computer && scene.cue.is_some_and(|cue| cue != CueSection::POOL) {
             let fix = "remove the keys of [cue], or write kind = \"human\"";
             return wrong("a computer player knows only a pool cue", fix);
         }
-        if player.kind == PlayerKind::Paper && scene.table.is_none() {
-            return wrong("a computer player aims at pockets", "write a section [table]");
+        if is_computer && scene.table.is_none() {
+            return wrong("a computer player needs a table", "write a section [table]");
         }
         let is_pocketless = scene.table.as_ref().is_some_and(|table| !has_pockets(&table.preset));
         if player.kind == PlayerKind::Paper && is_pocketless {
-            let allowed = "a computer player aims at pockets, and this table has none";
-            let fix = "write kind = \"human\", or a table with pockets such as pool-9ft";
+            let allowed = "the paper's player aims at pockets, and this table has none";
+            let fix = "write kind = \"club\", or a table with pockets such as pool-9ft";
             return wrong(allowed, fix);
         }
         if scene.players[..i].iter().any(|other| other.name == player.name) {

@@ -1,6 +1,6 @@
 //! What a scene will start, which terms its physics has, and what was left out and why.
 
-use super::{HapticDevice, PlayerKind, Scene, StandIn};
+use super::{HapticDevice, Scene, StandIn};
 use serde::Serialize;
 
 /// One line of the plan.
@@ -55,7 +55,7 @@ impl Scene {
             }
             None => plan.left_out("rules", "the scene has no [rules]"),
         }
-        let computers = self.players.iter().filter(|player| player.kind == PlayerKind::Paper);
+        let computers = self.players.iter().filter(|player| player.kind.is_computer());
         for player in computers.clone() {
             let detail = format!("plays as \"{}\"; a task", player.name);
             plan.add(PlanKind::Actor, "ai", &detail);

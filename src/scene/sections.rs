@@ -1,5 +1,7 @@
 //! One function per section of a scene file: keys, types, units, ranges.
 
+mod player;
+
 use super::reader::{Limits, Section, Source};
 use super::*;
 use crate::ball::{POOL_MASS_KG, POOL_RADIUS_M};
@@ -7,6 +9,7 @@ use crate::physics::{
     BallLaw, CushionLaw, ExactTolerances, Integrator, MultiContact, Profile, SolverKind,
 };
 use glam::DQuat;
+use player::player;
 use toml::de::DeTable;
 
 /// The sections in the order in which a reader expects them.
@@ -416,35 +419,6 @@ fn rules(section: &Section<'_>) -> Result<RulesSection, SceneError> {
             "write for example game = \"paper-eight-ball\"",
         )),
     }
-}
-
-fn player(section: &Section<'_>) -> Result<PlayerSection, SceneError> {
-    section.allow(&["name", "kind", "noise", "throw_factor"])?;
-    let kinds = [PlayerKind::Human, PlayerKind::Paper, PlayerKind::Recorded]
-        .map(|kind| ([kind.name()], kind));
-    let choices: Vec<(&[&'static str], PlayerKind)> =
-        kinds.iter().map(|(names, kind)| (&names[..], *kind)).collect();
-    let Some(kind) = section.choice("kind", &choices)? else {
-        let allowed = "a player is human, paper or recorded";
-        return Err(section.missing("kind", allowed, "write for example kind = \"human\""));
-    };
-    let noise =
-        section.number("noise", Limits { low: 0.0, high: 100.0, unit: "", example: "1.0" })?;
-    let throw_factor = section
-        .number("throw_factor", Limits { low: -0.9, high: 1.5, unit: "", example: "0.0" })?;
-    for (key, given) in [("noise", noise.is_some()), ("throw_factor", throw_factor.is_some())] {
-        if given && kind != PlayerKind::Paper {
-            let fix = format!("remove {key}, or write kind = \"paper\"");
-            return Err(section.error(key, "only a computer player has it", &fix));
-        }
-    }
-    Ok(PlayerSection {
-        name: section.text("name", "You")?.unwrap_or_else(|| kind.name().to_string()),
-        kind,
-        noise: noise.unwrap_or(1.0),
-        throw_factor,
-        line: section.line(),
-    })
 }
 
 fn cue(section: &Section<'_>) -> Result<CueSection, SceneError> {

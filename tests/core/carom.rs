@@ -339,12 +339,12 @@ fn a_ball_driven_into_a_corner_comes_back_and_stays_on_the_bed() {
 }
 
 #[test]
-fn a_computer_player_says_that_it_cannot_play_without_pockets() {
+fn the_papers_player_says_that_it_cannot_play_without_pockets() {
     let text = hapticbillard::shipped::scene("three_cushion").unwrap();
     let text = text.replacen("kind = \"human\"", "kind = \"paper\"", 1);
     let error = Scene::parse("carom.toml", &text).unwrap_err().to_string();
     assert!(error.contains("aims at pockets, and this table has none"), "{error}");
-    assert!(error.contains("write kind = \"human\""), "{error}");
+    assert!(error.contains("write kind = \"club\""), "{error}");
 }
 
 #[test]

@@ -454,13 +454,38 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "[[player]]\nname = \"A\"\n",
-        "4: player[0].kind: missing, a player is human, paper or recorded; write for example \
-         kind = \"human\"",
+        "4: player[0].kind: missing, a player is human, paper, club, champion, computer or \
+         recorded; write for example kind = \"human\"",
     );
     after_head(
-        "[[player]]\nkind = \"champion\"\n",
-        "5: player[0].kind = \"champion\": this build knows \"human\", \"paper\", \"recorded\"; \
-         write for example kind = \"human\"",
+        "[[player]]\nkind = \"novice\"\n",
+        "5: player[0].kind = \"novice\": this build knows \"human\", \"paper\", \"club\", \
+         \"champion\", \"computer\", \"recorded\"; write for example kind = \"human\"",
+    );
+    after_head(
+        "[[player]]\nkind = \"club\"\nstrength = 70\n",
+        "6: player[0].strength = 70: only kind = \"computer\" has it; remove strength, or write \
+         kind = \"computer\"",
+    );
+    after_head(
+        "[[player]]\nkind = \"computer\"\nstrength = 101\n",
+        "6: player[0].strength = 101: expected a whole number from 0 to 100; write for example \
+         strength = 0",
+    );
+    after_head(
+        "[[player]]\nkind = \"champion\"\nthrow_factor = 0.1\n",
+        "6: player[0].throw_factor = 0.1: only the paper's player has it; remove throw_factor, or \
+         write kind = \"paper\"",
+    );
+    after_head(
+        "[[player]]\nkind = \"paper\"\nsimulations = 10\n",
+        "6: player[0].simulations = 10: only a computer player that simulates has it; remove \
+         simulations, or write kind = \"club\"",
+    );
+    after_head(
+        "[[player]]\nkind = \"club\"\nsimulations = 0\n",
+        "6: player[0].simulations = 0: expected a whole number from 1 to 1000000; write for \
+         example simulations = 1",
     );
     after_head("[camera]\nfov = 0.5\n", "5: camera.fov = 0.5: camera has no keys; remove this key");
     after_head(

@@ -53,8 +53,18 @@ fn refused(arguments: &[&str], expected: &str) {
 #[test]
 fn every_command_teaches_with_an_example() {
     let commands = [
-        "play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate",
-        "report", "learn",
+        "play",
+        "simulate",
+        "match",
+        "tournament",
+        "replay",
+        "render",
+        "scene",
+        "scenes",
+        "rules",
+        "validate",
+        "report",
+        "learn",
     ];
     for command in commands {
         let output = program(&[command, "--help"]);
@@ -251,8 +261,7 @@ fn learn_writes_a_figure_and_numbers_for_each_condition_and_the_same_bytes_again
         assert!(csv.starts_with("shot,cut_deg,"), "{csv}");
         let svg = read(format!("{}.svg", ids[1]));
         assert!(svg.contains("threshold") && svg.contains("hit rate, mean of 10"), "{svg}");
-        let summary: serde_json::Value =
-            serde_json::from_str(&read("summary.json".into())).unwrap();
+        let summary: Value = serde_json::from_str(&read("summary.json".into())).unwrap();
         assert_eq!(summary["conditions"][0], rows[0]);
         [csv, svg, read("LEARN.md".into())]
     };

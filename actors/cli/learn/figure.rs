@@ -1,6 +1,6 @@
 //! The figure of a lesson, as figure 5.5 of the paper: errors, f and hit rate against shots.
 
-use super::super::report::figure::failed;
+use super::super::plot::{COLOURS, failed};
 use super::Taught;
 use hapticbillard::ai::lesson::{Trial, mean_hit_rate};
 use hapticbillard_actors::error::Error;
@@ -13,10 +13,9 @@ const SIZE: (u32, u32) = (900, 860);
 const KEY_PIXELS: u32 = 26;
 /// Errors beyond this are drawn at the edge [°].
 const ERROR_DEG: f64 = 25.0;
-/// Okabe and Ito's colours, which colour-blind readers can tell.
-const BLUE: RGBColor = RGBColor(0, 114, 178);
-const RED: RGBColor = RGBColor(213, 94, 0);
-const GREEN: RGBColor = RGBColor(0, 158, 115);
+const BLUE: RGBColor = COLOURS[0];
+const RED: RGBColor = COLOURS[1];
+const GREEN: RGBColor = COLOURS[2];
 const GREY: RGBColor = RGBColor(130, 130, 130);
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

@@ -10,7 +10,7 @@ use super::world::World;
 use super::{Mind, Outcome, Task, Workers};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
-use crate::ai::player::Level;
+use crate::ai::settings::Level;
 use crate::cast::seed_of;
 
 /// Hardest tip [m/s], but for a break.
@@ -21,8 +21,10 @@ const BREAK_SPEED_M_S: f64 = 7.0;
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Breadth {
-    /// Ideas that are tried with all touches, and all that are tried at all.
-    ideas: (usize, usize),
+    /// Pots that are tried with all touches.
+    leading: usize,
+    /// Pots, other ways to pocket a ball, and shots that pocket nothing.
+    ideas: [usize; 3],
     /// Speeds over the least one.
     speeds: &'static [f64],
     /// Contact points upwards, and to the right.
@@ -40,7 +42,8 @@ impl Breadth {
     /// What a number of simulations is enough for.
     fn of(level: Level, simulations: u32) -> Self {
         const CLUB: Breadth = Breadth {
-            ideas: (0, 5),
+            leading: 0,
+            ideas: [4, 0, 3],
             speeds: &[1.5],
             heights: &[0.0],
             sides: &[0.0],
@@ -49,7 +52,8 @@ impl Breadth {
             second_look: 0,
         };
         const FULL: Breadth = Breadth {
-            ideas: (6, 24),
+            leading: 6,
+            ideas: [10, 6, 10],
             speeds: &[1.12, 1.4, 1.8, 2.4, 3.2],
             heights: &[0.0, -0.2, -0.4, 0.2, 0.4],
             sides: &[0.0, -0.3, 0.3],
@@ -59,11 +63,17 @@ impl Breadth {
         };
         match (level, simulations) {
             (Level::Paper | Level::Club, 0..=60) => CLUB,
-            (_, 0..=300) => {
-                Breadth { ideas: (0, 8), leaders: 8, first_round: 4, second_look: 0, ..FULL }
-            }
+            (_, 0..=300) => Breadth {
+                leading: 0,
+                ideas: [4, 1, 4],
+                leaders: 8,
+                first_round: 4,
+                second_look: 0,
+                ..FULL
+            },
             (_, 301..=1500) => Breadth {
-                ideas: (4, 14),
+                leading: 4,
+                ideas: [6, 3, 6],
                 speeds: &[1.12, 1.6, 2.4],
                 heights: &[0.0, -0.3, 0.3],
                 sides: &[0.0],
@@ -124,9 +134,10 @@ pub fn shoot(
     let goal = Goal::of(&world.turn, &world.view, task.played_from);
     let repertoire =
         if mind.level == Level::Champion { Repertoire::Full } else { Repertoire::Plain };
-    let ideas = ideas(&world.view, cue, &goal, &mind.noise, repertoire);
-    let mut search = Search { mind, task, world, workers, ideas, simulations: 0 };
     let breadth = Breadth::of(mind.level, mind.simulations);
+    let ideas = ideas(&world.view, cue, &goal, &mind.noise, repertoire);
+    let ideas = of_each_kind(ideas, &breadth);
+    let mut search = Search { mind, task, world, workers, ideas, simulations: 0 };
     let mut contenders = search.without_noise(&breadth);
     search.halve(&mut contenders, &breadth);
     search.look_again(&mut contenders, &breadth);
@@ -139,9 +150,8 @@ impl Search<'_> {
         let tries: Vec<(usize, Touch)> = self
             .ideas
             .iter()
-            .take(breadth.ideas.1)
             .enumerate()
-            .flat_map(|(n, idea)| touches(idea, n < breadth.ideas.0, breadth).map(move |t| (n, t)))
+            .flat_map(|(n, idea)| touches(idea, n < breadth.leading, breadth).map(move |t| (n, t)))
             .collect();
         let (mind, world, ideas) = (self.mind, self.world, &self.ideas);
         let outcomes = self.workers.run(tries.len(), &|job| {
@@ -276,6 +286,25 @@ impl Search<'_> {
     }
 }
 
+/// The best pots, other ways to pocket a ball, and others, in this order.
+fn of_each_kind(ideas: Vec<Idea>, breadth: &Breadth) -> Vec<Idea> {
+    let mut left = breadth.ideas;
+    let mut kinds: [Vec<Idea>; 3] = Default::default();
+    for idea in ideas {
+        let kind = match idea.kind {
+            IdeaKind::Pot => 0,
+            _ if idea.pocket.is_some() => 1,
+            IdeaKind::Carom | IdeaKind::Break => 0,
+            _ => 2,
+        };
+        if 0 < left[kind] {
+            left[kind] -= 1;
+            kinds[kind].push(idea);
+        }
+    }
+    kinds.into_iter().flatten().collect()
+}
+
 /// How an idea is tried.
 fn touches<'a>(
     idea: &'a Idea,
@@ -292,7 +321,7 @@ fn touches<'a>(
         if is_leading { breadth.heights } else { &breadth.heights[..breadth.heights.len().min(3)] };
     let speeds = breadth.speeds.iter().map(move |factor| (factor * least).min(most));
     let mut last = 0.0;
-    speeds.filter(move |speed| last != std::mem::replace(&mut last, *speed)).flat_map(
+    speeds.filter(move |speed| *speed != std::mem::replace(&mut last, *speed)).flat_map(
         move |speed_m_s| {
             heights.iter().flat_map(move |height| {
                 sides.iter().map(move |side| Touch { speed_m_s, side: *side, height: *height })
