@@ -55,8 +55,8 @@ pub fn write(args: &LearnArgs, file: &Path, out: &mut dyn Write) -> Result<Statu
     } else {
         writeln!(
             out,
-            "{THROW_CELLS} cells of {shots} shots; mean error of {POTS} random pots: {by_table:.3}°, \
-             with the best single f = {factor:.3}: {by_single:.3}°\nwritten to {}",
+            "{THROW_CELLS} cells of {shots} shots; mean error of {POTS} random pots: \
+             {by_table:.3}°, with the best single f = {factor:.3}: {by_single:.3}°\nwritten to {}",
             file.display()
         )?;
     }
