@@ -35,6 +35,8 @@ mod sound;
 
 mod report;
 
+mod learn;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -84,6 +86,7 @@ enum Command {
     Haptic(haptic::HapticArgs),
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
+    Learn(learn::LearnArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -142,6 +145,7 @@ pub fn run() -> ExitCode {
         Command::Haptic(args) => haptic::run(&args, &mut out),
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
+        Command::Learn(args) => learn::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

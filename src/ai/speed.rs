@@ -47,6 +47,19 @@ pub fn launch_speed(distance_m: f64, arrival_m_s: f64) -> f64 {
     (rolled / (25.0 / 49.0 + 24.0 / 49.0 * ROLLING_RESISTANCE / SLIDING_FRICTION)).sqrt()
 }
 
+/// Speed of a ball without spin that starts with `start_m_s`, after `distance_m` [m/s]: what
+/// [`launch_speed`] turns round; 0 if it does not come so far.
+pub fn arrival_speed(start_m_s: f64, distance_m: f64) -> f64 {
+    let start_sq = start_m_s * start_m_s;
+    let slides_m = 12.0 / 49.0 * start_sq / (SLIDING_FRICTION * GRAVITY_M_S2);
+    let left_sq = if distance_m <= slides_m {
+        start_sq - 2.0 * SLIDING_FRICTION * GRAVITY_M_S2 * distance_m
+    } else {
+        25.0 / 49.0 * start_sq - 2.0 * ROLLING_RESISTANCE * GRAVITY_M_S2 * (distance_m - slides_m)
+    };
+    left_sq.max(0.0).sqrt()
+}
+
 /// Tip speed that just brings an object ball to its pocket [m/s]: `to_ball_m` for the cue ball,
 /// a cut of `cut_rad`, then `to_pocket_m` for the object ball.
 ///
@@ -139,6 +152,8 @@ mod tests {
         for (distance, arrival) in [(0.05, 2.0), (0.3, 0.5), (1.0, 0.5), (2.5, 1.5), (0.01, 0.5)] {
             let found = speed_after(launch_speed(distance, arrival), distance);
             assert!((found - arrival).abs() < 2e-3, "{distance} m, {arrival} m/s: {found}");
+            let back = arrival_speed(launch_speed(distance, arrival), distance);
+            assert!((back - arrival).abs() < 1e-9, "{distance} m, {arrival} m/s: {back}");
         }
     }
 }
