@@ -1,7 +1,7 @@
 //! Racks between two computer players, as `match` and `tournament` play them.
 
 use super::Driver;
-use hapticbillard::cast::seed_of;
+use hapticbillard::hash::seed_of;
 use hapticbillard::ids::{GameKind, PlayerId};
 use hapticbillard::rules;
 use hapticbillard::scene::{Entrant, Overrides};

@@ -129,7 +129,7 @@ fn thoughts_of_a_game_and_of_its_recording_are_one_picture() {
         return;
     }
     assert!(again.status.success(), "{again:?}");
-    let seed = hapticbillard::cast::seed_of(3, 0).to_string();
+    let seed = hapticbillard::hash::seed_of(3, 0).to_string();
     let direct = render(&["--scene", "eight_ball_headless", "--seed", &seed, "--out", &game]);
     assert!(direct.status.success(), "{direct:?}");
     assert_eq!(std::fs::read(&game).unwrap(), std::fs::read(&replayed).unwrap());
