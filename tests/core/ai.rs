@@ -3,6 +3,7 @@
 mod blind;
 mod ideas;
 mod learn;
+mod mind;
 mod plan;
 mod player;
 mod searching;

@@ -37,8 +37,8 @@ pub fn along(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Option<(A
     let azimuth_rad = libm::atan2(idea.direction.y, idea.direction.x);
     let over_rail = mind.table.clearance_elevation(cue, azimuth_rad);
     let elevation_rad = hold::elevation(&world.view, cue, idea.direction, over_rail);
-    let (side_offset, height_offset) = (touch.side, touch.height);
-    let aim = Aim { azimuth_rad, elevation_rad, side_offset, height_offset };
+    let height_offset = idea.height_offset + touch.height;
+    let aim = Aim { azimuth_rad, elevation_rad, side_offset: touch.side, height_offset }.limited();
     Some((aim, hold::tip_speed(touch.speed_m_s, elevation_rad)))
 }
 
@@ -102,7 +102,7 @@ pub fn best(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Outcome {
         };
         let outcome = exactly(aim);
         if outcome.success || !is_worth_a_scan(idea) {
-            return Outcome { simulations: 2, ..outcome };
+            return outcome;
         }
         return scanned(aim, exactly);
     }

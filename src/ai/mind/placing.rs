@@ -3,15 +3,19 @@
 use super::aim::{self, Touch};
 use super::decision::{Decision, Deliberation, Thoughts};
 use super::world::World;
-use super::{Mind, Outcome, Task, Workers, value};
-use crate::ai::ideas::{Repertoire, ideas, spots};
+use super::{Mind, Outcome, Task, Workers, trial, value};
+use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 use crate::ai::plan::Goal;
+use crate::ai::stroke::TIP_SPEED_MAX_M_S;
 use crate::events::Zone;
+use crate::hash::seed_of;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 /// Ideas that are tried from each spot.
 const IDEAS: usize = 3;
+/// Tries of each break.
+const BREAKS: u32 = 6;
 /// Speeds over the least one.
 const SPEEDS: [f64; 3] = [1.2, 1.7, 2.5];
 /// Contact points upwards.
@@ -35,7 +39,7 @@ pub fn place(
         let Ok(world) = world.with_cue_ball(mind, zone, spots[job]) else {
             return Outcome { value: -1.0, ..Outcome::default() };
         };
-        best_shot(mind, &world, zone)
+        best_shot(mind, &world, zone, task.seed)
     });
     let mut order: Vec<usize> = (0..tried).collect();
     order.sort_by(|a, b| outcomes[*b].value.total_cmp(&outcomes[*a].value));
@@ -46,8 +50,18 @@ pub fn place(
     Some(Deliberation { decision, thoughts: Thoughts::default(), simulations })
 }
 
+/// What a break is worth on the average: no two of them are alike.
+fn broken(mind: &Mind, world: &World, idea: &Idea, seed: u64) -> Outcome {
+    let touch = Touch { speed_m_s: TIP_SPEED_MAX_M_S, side: 0.0, height: 0.0 };
+    let Some(stroke) = aim::along(mind, world, idea, touch) else { return Outcome::default() };
+    let tried = (0..BREAKS)
+        .map(|n| trial::with_noise(mind, world, idea, stroke, seed_of(seed, u64::from(n))));
+    let value = tried.map(|outcome| outcome.value).sum::<f64>() / f64::from(BREAKS);
+    Outcome { value, simulations: BREAKS, ..Outcome::default() }
+}
+
 /// What the best shot from here is worth.
-fn best_shot(mind: &Mind, world: &World, zone: Zone) -> Outcome {
+fn best_shot(mind: &Mind, world: &World, zone: Zone, seed: u64) -> Outcome {
     let value = value::position(mind, world, Some(zone));
     let mut best = Outcome { value: 0.5 * value, ..Outcome::default() };
     let Some(cue) = world.view.cue_ball else { return best };
@@ -55,7 +69,18 @@ fn best_shot(mind: &Mind, world: &World, zone: Zone) -> Outcome {
     let miss = mind.races.prospects(world.referee().state()).miss;
     let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
     let mut simulations = 0;
-    for idea in ideas.iter().take(IDEAS) {
+    // Whoever has the ball in hand pots; only without any pot it matters what else there is.
+    let (pots, others): (Vec<&Idea>, Vec<&Idea>) =
+        ideas.iter().partition(|idea| idea.kind == IdeaKind::Pot);
+    for idea in pots.into_iter().chain(others).take(IDEAS) {
+        if idea.kind == IdeaKind::Break {
+            let outcome = broken(mind, world, idea, seed);
+            simulations += outcome.simulations;
+            if best.value < outcome.value {
+                best = outcome;
+            }
+            continue;
+        }
         for factor in SPEEDS {
             for height in HEIGHTS {
                 let speed_m_s = factor * idea.speed_least_m_s;

@@ -11,12 +11,14 @@ use super::{Mind, Outcome, Task, Workers};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
 use crate::ai::settings::Level;
+use crate::ai::stroke::TIP_SPEED_MAX_M_S;
 use crate::hash::seed_of;
+use crate::ids::GameKind;
 
 /// Hardest tip [m/s], but for a break.
 const SPEED_MOST_M_S: f64 = 6.0;
-/// Hardest tip of a break [m/s].
-const BREAK_SPEED_M_S: f64 = 7.0;
+/// Cushions before the second ball in three-cushion.
+const THREE: u8 = 3;
 
 /// How much is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,12 +45,12 @@ impl Breadth {
     fn of(level: Level, simulations: u32) -> Self {
         const CLUB: Breadth = Breadth {
             leading: 0,
-            ideas: [4, 0, 3],
+            ideas: [4, 0, 1],
             speeds: &[1.5],
             heights: &[0.0],
             sides: &[0.0],
             leaders: 5,
-            first_round: 3,
+            first_round: 8,
             second_look: 0,
         };
         const FULL: Breadth = Breadth {
@@ -62,7 +64,8 @@ impl Breadth {
             second_look: 6,
         };
         match (level, simulations) {
-            (Level::Paper | Level::Club, 0..=60) => CLUB,
+            (_, 0..=15) => Breadth { ideas: [2, 0, 1], leaders: 3, ..CLUB },
+            (Level::Paper | Level::Club, _) => CLUB,
             (_, 0..=300) => Breadth {
                 leading: 0,
                 ideas: [4, 1, 4],
@@ -132,10 +135,17 @@ pub fn shoot(
 ) -> Option<Deliberation> {
     let cue = world.view.cue_ball?;
     let goal = Goal::of(&world.turn, &world.view, task.played_from);
-    let repertoire =
-        if mind.level == Level::Champion { Repertoire::Full } else { Repertoire::Plain };
+    let is_carom = world.view.pockets.is_empty();
+    let repertoire = if mind.level == Level::Champion || is_carom {
+        Repertoire::Full
+    } else {
+        Repertoire::Plain
+    };
     let breadth = Breadth::of(mind.level, mind.simulations);
-    let ideas = ideas(&world.view, cue, &goal, &mind.noise, repertoire);
+    let mut ideas = ideas(&world.view, cue, &goal, &mind.noise, repertoire);
+    if mind.game == GameKind::ThreeCushion {
+        ideas.retain(|idea| idea.kind != IdeaKind::Carom || THREE <= idea.cushions);
+    }
     let ideas = of_each_kind(ideas, &breadth);
     let mut search = Search { mind, task, world, workers, ideas, simulations: 0 };
     let mut contenders = search.without_noise(&breadth);
@@ -197,7 +207,12 @@ impl Search<'_> {
             target = 1;
         }
         while 0 < left && !self.workers.is_cancelled() {
+            let left_over = mind_budget(self.mind, self.simulations) / left as u32;
+            target = target.min(done + left_over);
             let rounds = (target - done) as usize;
+            if rounds == 0 {
+                break;
+            }
             let (mind, world, ideas, task) = (self.mind, self.world, &self.ideas, self.task);
             let leaders = &contenders[..left];
             let outcomes = self.workers.run(left * rounds, &|job| {
@@ -211,8 +226,7 @@ impl Search<'_> {
                 self.simulations += outcome.simulations;
             }
             contenders[..left].sort_by(|a, b| b.value().total_cmp(&a.value()));
-            let is_enough = mind.noise.is_none() || self.mind.simulations < self.simulations;
-            if left <= 3 || is_enough {
+            if left <= 3 || mind.noise.is_none() {
                 break;
             }
             left = left.div_ceil(2);
@@ -223,7 +237,10 @@ impl Search<'_> {
     /// Looks at the positions that the last few leave by a small search of their own.
     fn look_again(&mut self, contenders: &mut [Contender], breadth: &Breadth) {
         const LAST: usize = 4;
-        let looks = breadth.second_look as usize;
+        /// About what a second look costs.
+        const LOOK: u32 = 60;
+        let affordable = mind_budget(self.mind, self.simulations) / (LOOK * LAST as u32);
+        let looks = breadth.second_look.min(affordable) as usize;
         if looks == 0 || self.workers.is_cancelled() {
             return;
         }
@@ -286,6 +303,11 @@ impl Search<'_> {
     }
 }
 
+/// Simulations that are left.
+fn mind_budget(mind: &Mind, used: u32) -> u32 {
+    mind.simulations.saturating_sub(used)
+}
+
 /// The best pots, other ways to pocket a ball, and others, in this order.
 fn of_each_kind(ideas: Vec<Idea>, breadth: &Breadth) -> Vec<Idea> {
     let mut left = breadth.ideas;
@@ -313,7 +335,7 @@ fn touches<'a>(
 ) -> impl Iterator<Item = Touch> + 'a {
     let is_break = idea.kind == IdeaKind::Break;
     let (most, least) = match is_break {
-        true => (BREAK_SPEED_M_S, 0.8 * BREAK_SPEED_M_S),
+        true => (TIP_SPEED_MAX_M_S, 0.8 * TIP_SPEED_MAX_M_S),
         false => (SPEED_MOST_M_S, idea.speed_least_m_s),
     };
     let sides = if is_leading { breadth.sides } else { &breadth.sides[..1] };
