@@ -5,11 +5,17 @@
 
 mod in_order;
 
+mod racks;
+
+mod plot;
+
 mod play;
 
 mod simulate;
 
 mod match_;
+
+mod tournament;
 
 mod replay;
 
@@ -28,6 +34,8 @@ mod haptic;
 mod sound;
 
 mod report;
+
+mod learn;
 
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
@@ -68,6 +76,7 @@ enum Command {
     Play(play::PlayArgs),
     Simulate(simulate::SimulateArgs),
     Match(match_::MatchArgs),
+    Tournament(tournament::TournamentArgs),
     Replay(replay::ReplayArgs),
     Render(render::RenderArgs),
     Scene(scene::SceneArgs),
@@ -77,6 +86,7 @@ enum Command {
     Haptic(haptic::HapticArgs),
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
+    Learn(learn::LearnArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -125,6 +135,7 @@ pub fn run() -> ExitCode {
         Command::Play(args) => play::run(&args, &mut out),
         Command::Simulate(args) => simulate::run(&args, &mut out),
         Command::Match(args) => match_::run(&args, &mut out),
+        Command::Tournament(args) => tournament::run(&args, &mut out),
         Command::Replay(args) => replay::run(&args, &mut out),
         Command::Render(args) => render::run(&args, &mut out),
         Command::Scene(args) => scene::run(&args, &mut out),
@@ -134,6 +145,7 @@ pub fn run() -> ExitCode {
         Command::Haptic(args) => haptic::run(&args, &mut out),
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
+        Command::Learn(args) => learn::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

@@ -22,15 +22,17 @@ mod stage;
 
 mod textures;
 
+mod thoughts;
+
 mod window;
 
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
-pub use offscreen::pixels;
+pub use offscreen::{pixels, written};
 pub use textures::number_layer;
 pub use window::{NoWindow, Ports, WindowSetup, show};
 
-use hapticbillard::renderer::DrawList;
+use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
@@ -40,12 +42,17 @@ use image::{ExtendedColorType, ImageEncoder};
 #[error("{0}")]
 pub struct NoPicture(pub String);
 
-/// A picture as a PNG file.
+/// A picture as a PNG file, with what is written over it.
 ///
 /// # Errors
 /// [`NoPicture`] if this machine has no OpenGL.
-pub fn png(table: &Table, list: &DrawList, size: (u32, u32)) -> Result<Vec<u8>, NoPicture> {
-    let rows = pixels(table, list, size)?;
+pub fn png(
+    table: &Table,
+    list: &DrawList,
+    hud: &Hud,
+    size: (u32, u32),
+) -> Result<Vec<u8>, NoPicture> {
+    let rows = written(table, list, hud, size)?;
     let bytes: Vec<u8> = rows.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
     let mut file = Vec::new();
     PngEncoder::new(&mut file)

@@ -6,30 +6,60 @@ use hapticbillard::hash::StateHash;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-/// Decisions so far, and the processor time that the ticks took in which they were made.
+/// How long a decision took: everything that a player did since its last one.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+pub struct Took {
+    /// Processor time of the thread that asked for it.
+    pub cpu: Duration,
+    /// Time by the clock on the wall, while the player was at it.
+    pub wall: Duration,
+}
+
+/// The decisions so far, of player 1 and player 2.
 #[derive(Debug, Default, Clone)]
-pub struct Stopwatch(Arc<Mutex<(u32, Duration)>>);
+pub struct Stopwatch(Arc<Mutex<[Vec<Took>; 2]>>);
 
 impl Stopwatch {
     /// Processor time per decision [ms]; none before the first.
     pub fn cpu_ms_per_decision(&self) -> Option<f64> {
-        let (decisions, time) = *self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        (decisions > 0).then(|| time.as_secs_f64() * 1e3 / f64::from(decisions))
+        let took = self.decisions().concat();
+        let sum: Duration = took.iter().map(|took| took.cpu).sum();
+        (!took.is_empty()).then(|| sum.as_secs_f64() * 1e3 / took.len() as f64)
+    }
+
+    /// Every decision of player 1 and of player 2.
+    pub fn decisions(&self) -> [Vec<Took>; 2] {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 }
 
-/// A participant under a stopwatch; it plays as without.
+/// A participant under a stopwatch.
 pub struct Timed<P> {
     core: P,
     stopwatch: Stopwatch,
+    /// Since the last decision.
+    since: Took,
 }
 
-impl<P> Timed<P> {
+impl<P: Participant> Timed<P> {
     /// Puts `core` under `stopwatch`.
     pub fn new(core: P, stopwatch: Stopwatch) -> Self {
-        Timed { core, stopwatch }
+        Timed { core, stopwatch, since: Took::default() }
+    }
+
+    /// Who begins to aim has just decided.
+    fn note(&mut self, outcome: &Outcome) {
+        let decided = outcome.publish.iter().find_map(|publication| match &publication.event {
+            Event::Player(report) if report.state == PlayerState::Aiming => Some(report.player),
+            _ => None,
+        });
+        if let Some(player) = decided {
+            let took = std::mem::take(&mut self.since);
+            let mut all = self.stopwatch.0.lock().unwrap_or_else(PoisonError::into_inner);
+            all[player.index()].push(took);
+        }
     }
 }
 
@@ -47,18 +77,11 @@ impl<P: Participant> Participant for Timed<P> {
     }
 
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        let start = thread_cpu_time();
+        let (cpu, wall) = (thread_cpu_time(), Instant::now());
         let outcome = self.core.collect(delivered);
-        let time = thread_cpu_time().saturating_sub(start);
-        // Who begins to aim has just decided.
-        let decided = outcome.publish.iter().any(|publication| {
-            matches!(&publication.event, Event::Player(report)
-                if report.state == PlayerState::Aiming)
-        });
-        if decided {
-            let mut sum = self.stopwatch.0.lock().unwrap_or_else(PoisonError::into_inner);
-            *sum = (sum.0 + 1, sum.1 + time);
-        }
+        self.since.cpu += thread_cpu_time().saturating_sub(cpu);
+        self.since.wall += wall.elapsed();
+        self.note(&outcome);
         outcome
     }
 

@@ -10,7 +10,7 @@ mod geometry;
 pub use geometry::{is_blocked, signed_angle};
 
 mod speed;
-pub use speed::{BALL_PER_TIP_SPEED, launch_speed, pot_tip_speed};
+pub use speed::{BALL_PER_TIP_SPEED, arrival_speed, launch_speed, pot_tip_speed};
 
 mod plan;
 pub use plan::{
@@ -46,8 +46,16 @@ pub use choose::{Outlook, call, choose};
 mod place;
 pub use place::{placements, zone_holds};
 
+mod insight;
+pub use insight::{insight_of_plan, insight_of_thoughts};
+
 mod learn;
 pub use learn::AimLearner;
+
+pub mod lesson;
+
+mod throw_table;
+pub use throw_table::{ThrowTable, ThrowTableError};
 
 mod stroke;
 pub use stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};

@@ -6,6 +6,7 @@
 
 mod fact;
 mod game;
+mod insight;
 mod verdict;
 
 pub use fact::{Fact, FactKind, TouchedBy};
@@ -13,6 +14,7 @@ pub use game::{
     BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Command, Group, Groups, Health,
     MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Zone,
 };
+pub use insight::{Insight, Prospect, ProspectKind, Way, WayEnd};
 pub use verdict::{Choice, Foul, Turn, TurnAfter, Verdict};
 
 use crate::ids::PlayerId;
@@ -36,6 +38,9 @@ pub enum Event {
     Player(PlayerReport),
     /// A menu was used.
     Menu(MenuAction),
+    /// What a computer player had in mind when it decided. No core hears it and no hash contains
+    /// it.
+    Insight(Arc<Insight>),
     /// The runtime reports on itself. No core hears it and no hash contains it.
     Health(Arc<Health>),
 }
@@ -50,6 +55,7 @@ impl Event {
             Event::Turn(_) => Topic::Turn,
             Event::Player(_) => Topic::Player,
             Event::Menu(_) => Topic::Menu,
+            Event::Insight(_) => Topic::Insight,
             Event::Health(_) => Topic::Health,
         }
     }
@@ -126,6 +132,8 @@ pub enum Topic {
     Player,
     /// [`Event::Menu`]
     Menu,
+    /// [`Event::Insight`]
+    Insight,
     /// [`Event::Health`]
     Health,
 }

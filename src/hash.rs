@@ -73,3 +73,13 @@ impl<'de> Deserialize<'de> for Digest {
             .map_err(|_| D::Error::custom(format!("'{text}' is no hash of 16 hexadecimal digits")))
     }
 }
+
+/// A seed for one part of a game, so that parts do not share their randomness.
+///
+/// SplitMix64 (Steele, Lea and Flood 2014) over seed and part.
+pub fn seed_of(seed: u64, part: u64) -> u64 {
+    let mut z = seed.wrapping_add(part.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -26,8 +26,10 @@ mod felt_eye;
 
 mod overlay;
 
+mod thoughts;
+
 pub use draw_list::{
-    BallInstance, DrawList, GhostBall, Line, Radii, Solid, SolidShape, StylusPose,
+    BallInstance, DrawList, GhostBall, Label, Line, Radii, Solid, SolidShape, StylusPose,
 };
 pub use felt::{FeltLook, FeltTool, force_colour};
 pub use felt_aim::aimed_by_stylus;
@@ -38,4 +40,5 @@ pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
+pub use thoughts::{LegendRow, ThoughtRow, ThoughtsPanel, draw_thoughts};
 pub use words::Words;

@@ -6,6 +6,7 @@
 
 mod build;
 mod check;
+mod entrant;
 mod error;
 mod overrides;
 mod plan;
@@ -15,6 +16,7 @@ mod sections;
 #[cfg(test)]
 mod tests;
 
+pub use entrant::{Entrant, NoEntrant};
 pub use error::SceneError;
 pub use overrides::Overrides;
 pub use plan::{PlanKind, PlanLine};

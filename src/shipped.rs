@@ -35,6 +35,9 @@ pub const CASES: &str = include_str!("../config/validation/cases.json");
 /// The same for the haptic renderer.
 pub const HAPTIC_CASES: &str = include_str!("../config/validation/haptic_cases.json");
 
+/// Throw compensation over cut and speed, as TOML; see [`crate::ai::ThrowTable`].
+pub const THROW_TABLE: &str = include_str!("../config/ai/throw.toml");
+
 /// Parameters of the shipped table `name`, as TOML.
 pub fn table(name: &str) -> Option<&'static str> {
     TABLES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)

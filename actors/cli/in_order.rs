@@ -2,14 +2,15 @@
 
 use hapticbillard_actors::error::Error;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Runs `run` for 0 to `jobs` on all cores and hands the results over in order, each as soon as
-/// those before it are done.
+/// those before it are done, until there is none left or `take` has enough.
 pub fn in_order<T: Send>(
     jobs: u32,
     run: impl Fn(u32) -> T + Sync,
-    mut take: impl FnMut(u32, T) -> Result<(), Error>,
+    mut take: impl FnMut(u32, T) -> Result<ControlFlow<()>, Error>,
 ) -> Result<(), Error> {
     let workers = std::thread::available_parallelism().map_or(1, |n| n.get()).min(jobs as usize);
     let next = AtomicU32::new(0);
@@ -29,12 +30,16 @@ pub fn in_order<T: Send>(
             });
         }
         drop(sender);
+        // It ends with this closure, so that whoever still sends learns that nobody listens.
+        let receiver = receiver;
         let mut waiting = BTreeMap::new();
         let mut expected = 0;
         while let Ok((job, result)) = receiver.recv() {
             waiting.insert(job, result);
             while let Some(result) = waiting.remove(&expected) {
-                take(expected, result)?;
+                if take(expected, result)?.is_break() {
+                    return Ok(());
+                }
                 expected += 1;
             }
         }
@@ -56,10 +61,25 @@ mod tests {
             |job, result| {
                 assert_eq!(job, result);
                 seen.push(job);
-                Ok(())
+                Ok(ControlFlow::Continue(()))
             },
         )
         .unwrap();
         assert_eq!(seen, (0..50).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn nothing_is_handed_over_after_enough() {
+        let mut seen = Vec::new();
+        in_order(
+            1000,
+            |job| job,
+            |job, _| {
+                seen.push(job);
+                Ok(if job == 7 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+            },
+        )
+        .unwrap();
+        assert_eq!(seen, (0..8).collect::<Vec<_>>());
     }
 }

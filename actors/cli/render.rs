@@ -1,23 +1,65 @@
 //! `hapticbillard render`: one picture without a window.
 
+#[cfg(feature = "renderer")]
+mod thought;
+
 use super::{Status, not_negative, size};
-use clap::Args;
+use clap::{Args, ValueEnum};
+use hapticbillard::scene::Entrant;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
+#[cfg(feature = "renderer")]
+use {
+    super::replay::read_recording,
+    hapticbillard::events::FactSet,
+    hapticbillard::input::{CameraPose, HumanView},
+    hapticbillard::renderer::{DrawList, Hud, Radii, draw_thoughts},
+    hapticbillard::replay::Recording,
+    hapticbillard::scene::Overrides,
+    hapticbillard_actors::files::{load_scene, write_whole},
+    hapticbillard_actors::game::Stage,
+    hapticbillard_actors::renderer::png,
+    thought::Thought,
+};
 
 const EXAMPLE: &str = "\
 Examples:
   hapticbillard render --scene eight_ball --out table.png
-  hapticbillard render --scene break_shot --at 0.4 --size 1920x1080 --out break.png";
+  hapticbillard render --scene break_shot --at 0.4 --size 1920x1080 --out break.png
+  hapticbillard render --scene eight_ball_headless --thoughts 3 --out thoughts.png
+  hapticbillard render --replay game.jsonl --thoughts 12 --from head --out thoughts.png";
 
 /// Renders one picture of a scene into a PNG file, without a window.
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct RenderArgs {
     /// A shipped scene (see `scenes`) or a scene file.
-    #[arg(long, value_name = "SCENE")]
-    pub scene: String,
+    #[arg(long, value_name = "SCENE", required_unless_present = "replay")]
+    pub scene: Option<String>,
+
+    /// A recorded game in place of a scene; with --thoughts.
+    #[arg(long, value_name = "FILE", requires = "thoughts")]
+    #[arg(conflicts_with_all = ["scene", "seed", "players"])]
+    pub replay: Option<PathBuf>,
+
+    /// Plays the game until computer players have decided on so many strokes, and shows what the
+    /// last one saw: free and blocked ways, the shots it considered with their chances.
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "1",
+          conflicts_with = "at", value_parser = clap::value_parser!(u32).range(1..))]
+    pub thoughts: Option<u32>,
+
+    /// The players of that game, in place of the scene's, as for `tournament`.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1, requires = "thoughts")]
+    pub players: Vec<Entrant>,
+
+    /// Fixes everything random, in place of the scene's seed.
+    #[arg(long, value_name = "K")]
+    pub seed: Option<u64>,
+
+    /// Where the picture is taken from; with --thoughts from above.
+    #[arg(long, value_enum)]
+    pub from: Option<Eye>,
 
     /// Size of the picture in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
@@ -35,6 +77,15 @@ pub struct RenderArgs {
     /// Prints the summary as a JSON line.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Where a picture is taken from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Eye {
+    /// Over the head of the table.
+    Head,
+    /// Straight above.
+    Above,
 }
 
 /// The name of a picture, which is a PNG file whatever its name says.
@@ -58,34 +109,65 @@ struct Summary<'a> {
     bytes: usize,
 }
 
+/// The game that is shown.
+#[cfg(feature = "renderer")]
+fn stage(args: &RenderArgs) -> Result<(Stage, Option<Recording>), Error> {
+    if let Some(path) = &args.replay {
+        let recording = read_recording(path)?;
+        return Ok((Stage::of_recording(&recording)?, Some(recording)));
+    }
+    let scene = args.scene.as_deref().unwrap_or_default();
+    let stage = Stage::new(&load_scene(scene)?, scene)?;
+    let players = args.players.clone();
+    Ok((stage.with(Overrides { seed: args.seed, players, ..Overrides::default() }), None))
+}
+
+/// The eye.
+#[cfg(feature = "renderer")]
+fn eye(args: &RenderArgs, stage: &Stage) -> CameraPose {
+    let length_m = stage.table.bed.map_or(2.54, |bed| bed.length_m);
+    let above = CameraPose::above(length_m);
+    // Beside the table is room for what is written about thoughts.
+    let aside = above.aside(0.165 * length_m);
+    match (args.from, args.thoughts) {
+        (Some(Eye::Above) | None, Some(_)) => aside,
+        (Some(Eye::Above), None) => above,
+        (Some(Eye::Head), _) | (None, None) => CameraPose::default(),
+    }
+}
+
 /// Renders.
 #[cfg(feature = "renderer")]
 pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    use hapticbillard::events::FactSet;
-    use hapticbillard::input::HumanView;
-    use hapticbillard::renderer::{DrawList, Radii};
-    use hapticbillard_actors::files::{load_scene, write_whole};
-    use hapticbillard_actors::game::Stage;
-    use hapticbillard_actors::renderer::png;
-
-    let stage = Stage::new(&load_scene(&args.scene)?, &args.scene)?;
-    let mut simulation = stage.simulation()?;
-    simulation.advance(args.at, FactSet::NONE, &mut Vec::new())?;
-    let world = simulation.snapshot(args.at);
+    let (stage, recording) = stage(args)?;
     let balls = stage.scene.build_balls(&stage.table)?;
     let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
         .with_set(stage.scene.equipment().into());
-    let list = DrawList::new(&world, &HumanView::default(), &radii);
-    let file = png(&stage.table, &list, args.size)?;
+    let view = HumanView { camera: eye(args, &stage), ..HumanView::default() };
+    let (list, written, time_s) = match args.thoughts {
+        Some(number) => {
+            let thought = Thought::of(&stage, recording, number)?;
+            let mut list = DrawList::new(&thought.table, &view, &radii);
+            draw_thoughts(&thought.insight, &radii, &mut list);
+            (list, thought.written(), thought.table.time_s)
+        }
+        None => {
+            let mut simulation = stage.simulation()?;
+            simulation.advance(args.at, FactSet::NONE, &mut Vec::new())?;
+            let world = simulation.snapshot(args.at);
+            (DrawList::new(&world, &view, &radii), Hud::default(), args.at)
+        }
+    };
+    let file = png(&stage.table, &list, &written, args.size)?;
     write_whole(&args.out, &file)?;
     let (width, height) = args.size;
     let (balls, bytes) = (list.balls.len(), file.len());
     if args.json {
-        let summary = Summary { out: &args.out, width, height, time_s: args.at, balls, bytes };
+        let summary = Summary { out: &args.out, width, height, time_s, balls, bytes };
         super::json_line(out, &serde_json::json!({ "summary": summary }))?;
     } else {
         let path = args.out.display();
-        writeln!(out, "{path}: {width} x {height} pixels, {balls} balls, at {} s", args.at)?;
+        writeln!(out, "{path}: {width} x {height} pixels, {balls} balls, at {time_s} s")?;
     }
     Ok(Status::Success)
 }

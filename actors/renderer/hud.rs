@@ -2,23 +2,26 @@
 
 use hapticbillard::ids::BallId;
 use hapticbillard::renderer::{
-    FeltPanel, Gauge, Hud, Remaining, SeatPanel, TipDial, ball_look, force_colour,
+    DrawList, FeltPanel, Gauge, Hud, Remaining, SeatPanel, TipDial, ball_look, force_colour,
 };
 use three_d::egui::{
     Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2,
 };
 
 const PANEL: Color32 = Color32::from_rgba_premultiplied(8, 9, 11, 190);
-const TEXT: Color32 = Color32::from_rgb(236, 234, 226);
-const FAINT: Color32 = Color32::from_rgb(176, 174, 166);
-const ACTIVE: Color32 = Color32::from_rgb(255, 205, 96);
+pub(super) const TEXT: Color32 = Color32::from_rgb(236, 234, 226);
+pub(super) const FAINT: Color32 = Color32::from_rgb(176, 174, 166);
+pub(super) const ACTIVE: Color32 = Color32::from_rgb(255, 205, 96);
 const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
 
-/// Draws the display over a window of the painter's size.
-pub fn paint(painter: &Painter, hud: &Hud) {
+/// Draws the labels of a picture and the display over a window of the painter's size.
+pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     let screen = painter.clip_rect();
     let unit = unit_of(screen);
     let pen = Pen { painter, screen, unit };
+    for label in &list.labels {
+        pen.label(label, &list.camera);
+    }
     pen.seats(&hud.seats);
     pen.message(hud);
     pen.hint(hud);
@@ -32,6 +35,9 @@ pub fn paint(painter: &Painter, hud: &Hud) {
     }
     if let Some(panel) = &hud.felt {
         pen.felt(panel, if hud.seats.is_empty() { 14.0 } else { 98.0 });
+    }
+    if let Some(panel) = &hud.thoughts {
+        pen.thoughts(panel, if hud.seats.len() < 2 { 14.0 } else { 98.0 });
     }
     if let Some((title, rows)) = &hud.help {
         pen.help(title, rows);
@@ -59,22 +65,24 @@ fn unit_of(screen: Rect) -> f32 {
     (screen.height() / 720.0).clamp(0.6, 3.0)
 }
 
-struct Pen<'a> {
-    painter: &'a Painter,
-    screen: Rect,
-    unit: f32,
+/// What everything is drawn with.
+pub(super) struct Pen<'a> {
+    pub painter: &'a Painter,
+    pub screen: Rect,
+    /// Pixels per unit of length: everything grows with the window.
+    pub unit: f32,
 }
 
 impl Pen<'_> {
-    fn font(&self, size: f32) -> FontId {
+    pub fn font(&self, size: f32) -> FontId {
         FontId::proportional(size * self.unit)
     }
 
-    fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, colour: Color32) -> Rect {
+    pub fn text(&self, at: Pos2, anchor: Align2, text: &str, size: f32, colour: Color32) -> Rect {
         self.painter.text(at, anchor, text, self.font(size), colour)
     }
 
-    fn panel(&self, rect: Rect) {
+    pub fn panel(&self, rect: Rect) {
         self.painter.rect_filled(rect, 7.0 * self.unit, PANEL);
     }
 

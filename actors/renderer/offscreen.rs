@@ -1,8 +1,9 @@
 //! Pictures without a window: an OpenGL context of its own, through EGL without any surface.
 
 use super::NoPicture;
+use super::hud;
 use super::stage::{BACKGROUND, Stage};
-use hapticbillard::renderer::DrawList;
+use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use khronos_egl as egl;
 use std::sync::Arc;
@@ -65,24 +66,40 @@ fn context() -> Result<Context, NoPicture> {
     Context::from_gl_context(Arc::new(gl)).map_err(|error| failed("OpenGL", error))
 }
 
-/// One picture, rows from the top, red, green, blue and opacity in each pixel.
+/// One picture, rows from the top, red, green, blue and opacity in each pixel; nothing is written
+/// over it.
 ///
 /// # Errors
 /// [`NoPicture`] if this machine has no OpenGL.
-pub fn pixels(
+pub fn pixels(table: &Table, list: &DrawList, size: (u32, u32)) -> Result<Vec<[u8; 4]>, NoPicture> {
+    written(table, list, &Hud::default(), size)
+}
+
+/// The same with labels and display.
+///
+/// # Errors
+/// [`NoPicture`] if this machine has no OpenGL.
+pub fn written(
     table: &Table,
     list: &DrawList,
+    hud: &Hud,
     (width, height): (u32, u32),
 ) -> Result<Vec<[u8; 4]>, NoPicture> {
     let context = context()?;
     let mut stage = Stage::new(&context, table);
+    let viewport = Viewport::new_at_origo(width, height);
+    let mut gui = GUI::new(&context);
+    gui.update(&mut [], 0.0, viewport, 1.0, |ui| {
+        let layer = egui::LayerId::background();
+        hud::paint(&ui.ctx().layer_painter(layer), list, hud);
+    });
     let target = RenderTargetMultisample::<[u8; 4], f32>::new(&context, width, height, SAMPLES);
     let [r, g, b] = BACKGROUND;
     target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
     target
         .write::<CoreError>(|| {
-            stage.draw(list, Viewport::new_at_origo(width, height));
-            Ok(())
+            stage.draw(list, viewport);
+            gui.render()
         })
         .map_err(|error| failed("OpenGL", error))?;
     let texture = target.resolve_color();

@@ -12,7 +12,9 @@ use crate::pacer::StopFlag;
 use hapticbillard::ids::GameKind;
 use hapticbillard::input::{Button, HumanMode, HumanView, Key, RawInput};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::renderer::{DrawList, Hud, Playhead, Radii, Scoreboard, Words};
+use hapticbillard::renderer::{
+    DrawList, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+};
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
@@ -101,6 +103,7 @@ struct Screen {
     table: Arc<Table>,
     felt: Option<FeltScreen>,
     heard: Option<HeardScreen>,
+    shows_thoughts: bool,
 }
 
 /// The game is over: its thread has nothing more to say.
@@ -149,6 +152,7 @@ where
         table: setup.table.clone(),
         felt: setup.felt.take().map(FeltScreen::new),
         heard: setup.heard.take().map(HeardScreen::new),
+        shows_thoughts: false,
     };
 
     let ended = events.create_proxy();
@@ -233,7 +237,13 @@ struct Desk {
 impl Screen {
     /// What is drawn and written at `now_s`.
     fn seen(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
-        let (list, mut written) = self.drawn(view, now_s);
+        let (mut list, mut written) = self.drawn(view, now_s);
+        if let Some(insight) = self.board.insight.as_ref().filter(|_| self.shows_thoughts) {
+            draw_thoughts(insight, &self.radii, &mut list);
+            let name = self.board.name(insight.player);
+            let panel = ThoughtsPanel::new(insight, name, &self.texts, &self.words);
+            written.thoughts = Some(panel);
+        }
         if let Some(heard) = &mut self.heard {
             heard.listen_at(&list.camera);
             heard.write(&mut written, &self.words, now_s);
@@ -381,6 +391,10 @@ impl Desk {
         }
         if down {
             self.held.push(key);
+            if key == Key::Letter('i') {
+                self.screen.shows_thoughts = !self.screen.shows_thoughts;
+                return;
+            }
             let now_s = self.start.elapsed().as_secs_f64();
             if let Some(heard) = &mut self.screen.heard
                 && heard.turn(key, now_s)
@@ -449,7 +463,7 @@ impl Desk {
         let time_ms = self.start.elapsed().as_secs_f64() * 1e3;
         self.gui.update(&mut [], time_ms, viewport, 1.0, |ui| {
             let layer = egui::LayerId::background();
-            hud::paint(&ui.ctx().layer_painter(layer), &written);
+            hud::paint(&ui.ctx().layer_painter(layer), &list, &written);
         });
         let (stage, gui) = (&mut self.stage, &self.gui);
         let drawn = target.write::<CoreError>(|| {
@@ -495,6 +509,7 @@ fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::C => Key::Letter('c'),
         Code::F => Key::Letter('f'),
         Code::H => Key::Letter('h'),
+        Code::I => Key::Letter('i'),
         Code::M => Key::Letter('m'),
         Code::O => Key::Letter('o'),
         Code::P => Key::Letter('p'),

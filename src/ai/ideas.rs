@@ -13,8 +13,11 @@ mod kick;
 mod mouth;
 mod opening;
 mod pot;
+mod spots;
 mod trace;
 mod way;
+
+pub use spots::spots;
 
 use super::noise::StrokeNoise;
 use super::plan::{Goal, Line, LineEnd};
@@ -92,10 +95,15 @@ pub enum Repertoire {
     Full,
 }
 
-/// Shots from a cue ball at `cue`, best chance first; of equal ones that with the smaller ball, then
-/// pocket. Never empty while there is an object ball.
+/// Shots from a cue ball at `cue`, best chance first, to a thousandth. Never empty while there is
+/// an object ball.
 ///
-/// A break asks for [`IdeaKind::Break`] alone.
+/// Of equal chances what pockets a ball comes first, in the order of balls and pockets; contacts
+/// and breaks come in an order that makes the first few differ: near balls first, full and thin by
+/// turns; kicks that only meet a ball come last. A break asks for [`IdeaKind::Break`] alone.
+///
+/// Where there are no pockets (carom), `cushions` counts those before the last ball is met: ideas
+/// for three-cushion are those with at least three.
 pub fn ideas(
     view: &TableView2d,
     cue: DVec2,
@@ -121,13 +129,27 @@ pub fn ideas(
     if found.is_empty() {
         found.extend(contact::desperate(&position));
     }
-    found.sort_by(|a, b| {
-        b.chance
-            .total_cmp(&a.chance)
-            .then_with(|| (a.kind, a.first, a.ball).cmp(&(b.kind, b.first, b.ball)))
-            .then_with(|| a.pocket.cmp(&b.pocket))
-    });
+    // Stable: of equal ones the first that was found.
+    found.sort_by(|a, b| rank(b).total_cmp(&rank(a)).then_with(|| order(a).cmp(&order(b))));
     found
+}
+
+/// The chance as far as it matters for the order: to a thousandth.
+fn rank(idea: &Idea) -> f64 {
+    (1000.0 * idea.chance).round()
+}
+
+/// Of equal chances what pockets a ball comes first, and what goes straight before what does not.
+fn order(idea: &Idea) -> (bool, IdeaKind) {
+    let is_detour = idea.kind == IdeaKind::Kick && idea.pocket.is_none();
+    (is_detour, idea.kind)
+}
+
+/// All pairs of `rows` and `columns`, those with the small sums of both numbers first.
+fn diagonally(rows: usize, columns: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..rows + columns).flat_map(move |sum| {
+        (0..=sum).map(move |row| (row, sum - row)).filter(move |(r, c)| *r < rows && *c < columns)
+    })
 }
 
 /// Less likely combinations, banks and the like are no ideas.
@@ -149,6 +171,14 @@ impl Position<'_> {
         self.view.ball_radius_m
     }
 
+    /// The balls that may be met first, the nearest first.
+    fn nearest_legal(&self) -> Vec<(BallId, DVec2)> {
+        let mut balls: Vec<_> = self.lying(&self.goal.legal).collect();
+        // Stable: of equally near ones that with the smaller number.
+        balls.sort_by(|a, b| self.cue.distance(a.1).total_cmp(&self.cue.distance(b.1)));
+        balls
+    }
+
     /// Balls of a list that lie on the table, with their places.
     fn lying<'b>(&'b self, balls: &'b [BallId]) -> impl Iterator<Item = (BallId, DVec2)> + 'b {
         balls.iter().filter_map(|id| Some((*id, self.view.position(*id)?)))
@@ -158,15 +188,4 @@ impl Position<'_> {
 /// A free way, to be drawn.
 fn line(from: DVec2, to: DVec2, end: LineEnd) -> Line {
     Line { from, to, end, free: true, chosen: false }
-}
-
-/// Places for a cue ball in hand in `zone`, best first [m]; all have room.
-pub fn spots(
-    view: &TableView2d,
-    zone: crate::events::Zone,
-    goal: &Goal,
-    _noise: &StrokeNoise,
-    rng: &mut impl rand::Rng,
-) -> Vec<DVec2> {
-    super::place::placements(view, zone, goal, 0.07, rng)
 }

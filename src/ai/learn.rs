@@ -33,6 +33,8 @@ pub struct AimLearner {
     rate_per_deg: f64,
     /// w, weight of a new error.
     weight: f64,
+    /// Every error is believed.
+    credulous: bool,
 }
 
 impl AimLearner {
@@ -44,7 +46,28 @@ impl AimLearner {
     /// A learner of another pace.
     pub fn with_rate(factor: f64, rate_per_deg: f64, weight: f64) -> Self {
         let (mean_deg, filtered_deg) = (0.0, FILTER_START_DEG);
-        AimLearner { factor, mean_deg, filtered_deg, rate_per_deg, weight }
+        AimLearner { factor, mean_deg, filtered_deg, rate_per_deg, weight, credulous: false }
+    }
+
+    /// The same learner with the threshold off: every error is believed.
+    #[must_use]
+    pub fn without_threshold(mut self) -> Self {
+        self.credulous = true;
+        self
+    }
+
+    /// T: the next error is believed if its size is at most this [°]; infinite with the threshold
+    /// off.
+    pub fn threshold_deg(&self) -> f64 {
+        if self.credulous {
+            return f64::INFINITY;
+        }
+        (OPENING * self.filtered_deg).clamp(THRESHOLD_DEG.0, THRESHOLD_DEG.1)
+    }
+
+    /// a, the mean of the errors that were believed [°].
+    pub fn mean_error_deg(&self) -> f64 {
+        self.mean_deg
     }
 
     /// The cut to command for a wanted one, at most `limit`; in any unit.
@@ -55,7 +78,7 @@ impl AimLearner {
     /// Takes the error of a shot [°]; returns whether it was believed.
     pub fn learn(&mut self, error_deg: f64) -> bool {
         let size = error_deg.abs();
-        let threshold = (OPENING * self.filtered_deg).clamp(THRESHOLD_DEG.0, THRESHOLD_DEG.1);
+        let threshold = self.threshold_deg();
         // The clip keeps one outlier from opening the threshold.
         let clipped = size.min(2.0 * self.filtered_deg + 1.0);
         self.filtered_deg += FILTER * (clipped - self.filtered_deg);

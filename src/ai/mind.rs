@@ -31,6 +31,7 @@ mod world;
 
 use super::noise::StrokeNoise;
 use super::settings::Level;
+use super::throw_table::ThrowTable;
 use crate::ball::{Ball, BallState};
 use crate::ids::GameKind;
 use crate::physics::Simulation;
@@ -72,6 +73,8 @@ pub struct MindSetup {
 pub struct Mind {
     setup: MindSetup,
     races: Races,
+    /// How the club's player allows for throw.
+    throw_table: ThrowTable,
 }
 
 impl std::ops::Deref for Mind {
@@ -86,7 +89,7 @@ impl Mind {
     /// A mind that has not thought yet.
     pub fn new(setup: MindSetup) -> Self {
         let races = Races::new(setup.game, &setup.noise);
-        Mind { setup, races }
+        Mind { setup, races, throw_table: ThrowTable::shipped() }
     }
 
     /// Answers a question. The same question, mind and seed give the same answer, however many

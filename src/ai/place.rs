@@ -105,7 +105,7 @@ fn break_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVec
 }
 
 /// A spot with room, evenly drawn from the zone.
-fn random_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVec2> {
+pub(super) fn random_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVec2> {
     let bed = &view.bed;
     let half = 0.5 * DVec2::new(bed.length_m, bed.width_m);
     let foot_end = match zone {

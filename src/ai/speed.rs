@@ -47,6 +47,19 @@ pub fn launch_speed(distance_m: f64, arrival_m_s: f64) -> f64 {
     (rolled / (25.0 / 49.0 + 24.0 / 49.0 * ROLLING_RESISTANCE / SLIDING_FRICTION)).sqrt()
 }
 
+/// Speed of a ball without spin that starts with `start_m_s`, after `distance_m` [m/s]: what
+/// [`launch_speed`] turns round; 0 if it does not come so far.
+pub fn arrival_speed(start_m_s: f64, distance_m: f64) -> f64 {
+    let start_sq = start_m_s * start_m_s;
+    let slides_m = 12.0 / 49.0 * start_sq / (SLIDING_FRICTION * GRAVITY_M_S2);
+    let left_sq = if distance_m <= slides_m {
+        start_sq - 2.0 * SLIDING_FRICTION * GRAVITY_M_S2 * distance_m
+    } else {
+        25.0 / 49.0 * start_sq - 2.0 * ROLLING_RESISTANCE * GRAVITY_M_S2 * (distance_m - slides_m)
+    };
+    left_sq.max(0.0).sqrt()
+}
+
 /// Tip speed that just brings an object ball to its pocket [m/s]: `to_ball_m` for the cue ball,
 /// a cut of `cut_rad`, then `to_pocket_m` for the object ball.
 ///
@@ -96,17 +109,17 @@ pub(super) fn before_meeting(cut_rad: f64, object_m_s: f64) -> f64 {
     object_m_s / shared
 }
 
+/// Part of a rolling ball's speed that a cushion leaves, whatever its angle.
+const CUSHION_SHARE: f64 = 0.8;
+
 /// Speed that a ball must start with to be at `arrival_m_s` at the end of its way [m/s], whose
-/// parts `legs_m` are joined by cushions.
+/// parts `legs_m` are joined by cushions. After a cushion it rolls.
 pub(super) fn launch_by_cushions(legs_m: &[f64], arrival_m_s: f64) -> f64 {
-    let mut speed = arrival_m_s;
-    for (i, leg) in legs_m.iter().enumerate().rev() {
-        speed = launch_speed(*leg, speed);
-        if i > 0 {
-            speed /= CUSHION_RESTITUTION;
-        }
-    }
-    speed
+    let Some((first, after)) = legs_m.split_first() else { return arrival_m_s };
+    let bounced = after.iter().rev().fold(arrival_m_s, |speed, leg| {
+        (speed * speed + 2.0 * ROLLING_RESISTANCE * GRAVITY_M_S2 * leg).sqrt() / CUSHION_SHARE
+    });
+    launch_speed(*first, bounced)
 }
 
 /// Speed that a ball must start with to fall at the end of its way [m/s].
@@ -139,6 +152,8 @@ mod tests {
         for (distance, arrival) in [(0.05, 2.0), (0.3, 0.5), (1.0, 0.5), (2.5, 1.5), (0.01, 0.5)] {
             let found = speed_after(launch_speed(distance, arrival), distance);
             assert!((found - arrival).abs() < 2e-3, "{distance} m, {arrival} m/s: {found}");
+            let back = arrival_speed(launch_speed(distance, arrival), distance);
+            assert!((back - arrival).abs() < 1e-9, "{distance} m, {arrival} m/s: {back}");
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The computer players of a scene, with all that they think with.
 
-use super::{CastError, seed_of};
+use super::CastError;
 use crate::ai::{Level, Mind, MindSetup, Player, PlayerSettings};
 use crate::ball::{Ball, BallState};
+use crate::hash::seed_of;
 use crate::ids::PlayerId;
 use crate::physics::{PhysicsError, PhysicsSettings, Profile, Simulation, SolverKind};
 use crate::rules::Referee;

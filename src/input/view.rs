@@ -27,6 +27,42 @@ impl Default for CameraPose {
     }
 }
 
+/// How far the eye above a table is off the vertical towards −y, so that it knows which way is up
+/// [m].
+const ASIDE_M: f64 = 0.02;
+/// How high it is, in lengths of the bed: high enough for a picture that is wider than high.
+const ABOVE_LENGTHS: f64 = 1.1;
+
+impl CameraPose {
+    /// The whole of a table with a bed of this length [m] from above; its head is on the left.
+    pub fn above(length_m: f64) -> Self {
+        let eye = DVec3::new(0.0, -ASIDE_M, ABOVE_LENGTHS * length_m);
+        CameraPose { eye, target: DVec3::ZERO, ..CameraPose::default() }
+    }
+
+    /// The same, with everything so far to the left in the picture [m].
+    #[must_use]
+    pub fn aside(self, by_m: f64) -> Self {
+        let ahead = (self.target - self.eye).normalize_or_zero();
+        let by = ahead.cross(DVec3::Z).normalize_or_zero() * by_m;
+        CameraPose { eye: self.eye + by, target: self.target + by, ..self }
+    }
+
+    /// Where a point of the world [m] is in a picture of this width by height: from its left and
+    /// from its top, in shares of both; none if it is behind the eye.
+    pub fn place_of(&self, point: DVec3, aspect: f64) -> Option<[f64; 2]> {
+        let ahead = (self.target - self.eye).normalize_or_zero();
+        let right = ahead.cross(DVec3::Z).normalize_or_zero();
+        let up = right.cross(ahead);
+        let way = point - self.eye;
+        let depth = way.dot(ahead);
+        let reach = depth * libm::tan(0.5 * self.field_of_view_rad);
+        let place =
+            [0.5 + 0.5 * way.dot(right) / (reach * aspect), 0.5 - 0.5 * way.dot(up) / reach];
+        (depth > 1e-6).then_some(place)
+    }
+}
+
 /// How the player looks round from the usual place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {

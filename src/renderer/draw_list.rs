@@ -156,6 +156,19 @@ impl Solid {
     }
 }
 
+/// A few letters at a place of the world, of one size wherever that is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// Their middle [m].
+    pub at: [f32; 3],
+    /// What they say.
+    pub text: String,
+    /// Red, green, blue in sRGB.
+    pub colour: [f32; 3],
+    /// They stand out from others.
+    pub is_bold: bool,
+}
+
 /// The stylus of a haptic device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StylusPose {
@@ -184,6 +197,8 @@ pub struct DrawList {
     pub stylus: Option<StylusPose>,
     /// What is drawn of forces and workspace, in this order.
     pub solids: Vec<Solid>,
+    /// What is written on the table.
+    pub labels: Vec<Label>,
 }
 
 impl DrawList {
@@ -204,6 +219,7 @@ impl DrawList {
             ghosts: Vec::new(),
             stylus: None,
             solids: Vec::new(),
+            labels: Vec::new(),
         };
         match view.mode {
             HumanMode::Aiming | HumanMode::Stroking => {

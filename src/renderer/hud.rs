@@ -3,6 +3,7 @@
 use super::felt::FeltTool;
 use super::overlay::FeltPanel;
 use super::scoreboard::Scoreboard;
+use super::thoughts::ThoughtsPanel;
 use super::words::Words;
 use crate::cue::OFFSET_LIMIT;
 use crate::events::{BallInHand, Group, PlayerState, ShotKind};
@@ -86,6 +87,8 @@ pub struct Hud {
     pub help_hint: String,
     /// What the haptic device does.
     pub felt: Option<FeltPanel>,
+    /// What a computer player thought.
+    pub thoughts: Option<ThoughtsPanel>,
 }
 
 impl Hud {

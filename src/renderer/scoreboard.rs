@@ -1,8 +1,8 @@
 //! The scoreboard: the state of a game as a window shows it, reduced from events.
 
 use crate::events::{
-    Call, CallKind, Command, Event, FactKind, Group, Groups, Health, PlayerState, Topic, Topics,
-    Turn, TurnAfter, Verdict,
+    Call, CallKind, Command, Event, FactKind, Group, Groups, Health, Insight, PlayerState, Topic,
+    Topics, Turn, TurnAfter, Verdict,
 };
 use crate::ids::{BallId, PlayerId};
 use crate::input::STYLUS;
@@ -25,6 +25,8 @@ pub struct Scoreboard {
     pub states: [PlayerState; 2],
     /// What was announced for the next shot.
     pub call: Option<Call>,
+    /// What the player at the table thought, until its shot is judged; only computers tell.
+    pub insight: Option<Arc<Insight>>,
     /// A stroke was made and the balls have not settled.
     pub is_rolling: bool,
     /// The game is over; who won, if anybody.
@@ -67,6 +69,7 @@ impl Scoreboard {
             Topic::Turn,
             Topic::Verdict,
             Topic::Player,
+            Topic::Insight,
             Topic::Command,
             Topic::CueBallStruck,
             Topic::BallPocketed,
@@ -84,6 +87,7 @@ impl Scoreboard {
                 self.groups = turn.groups;
                 self.is_rolling = false;
                 self.call = None;
+                self.insight = None;
                 // A choice was taken: that there was one is old now.
                 if turn.options.is_empty() {
                     self.verdict.take_if(|verdict| !verdict.options.is_empty());
@@ -96,6 +100,7 @@ impl Scoreboard {
                     self.over = Some(verdict.winner);
                 }
                 self.is_rolling = false;
+                self.insight = None;
                 self.verdict = Some(verdict.clone());
             }
             Event::Player(report) => self.states[report.player.index()] = report.state,
@@ -113,6 +118,7 @@ impl Scoreboard {
                 FactKind::Settled { .. } => self.is_rolling = false,
                 _ => {}
             },
+            Event::Insight(insight) => self.insight = Some(insight.clone()),
             Event::Health(health) => self.hear_health(health),
             Event::Command(Command::Call(call)) => {
                 self.call = Some(call.clone()).filter(|call| *call != NOTHING);

@@ -7,7 +7,7 @@ use crate::events::{
     BallInHand, BallOn, Call, CallKind, Choice, Foul, Group, Groups, Racked, ShotKind, Turn,
     TurnAfter, Verdict,
 };
-use crate::ids::{BallId, GameKind, PlayerId};
+use crate::ids::{BallId, GameKind, PlayerId, PocketId};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -162,7 +162,7 @@ impl Texts {
                 self.fill("call", "nominated", "ball", &self.ball(*ball))
             }
             Call::Ball { ball, pocket: Some(pocket) } => {
-                let pocket = self.get("pocket", &code(pocket));
+                let pocket = self.pocket(*pocket);
                 let text = self.fill("call", "ball", "ball", &self.ball(*ball));
                 text.replace("{pocket}", &pocket)
             }
@@ -171,8 +171,13 @@ impl Texts {
         }
     }
 
+    /// Where a pocket is, for example "at the foot, left".
+    pub fn pocket(&self, pocket: PocketId) -> String {
+        self.get("pocket", &code(&pocket))
+    }
+
     /// What a ball is called.
-    fn ball(&self, ball: BallId) -> String {
+    pub fn ball(&self, ball: BallId) -> String {
         self.game.map_or_else(|| ball.to_string(), |game| ball_name(game, ball))
     }
 
@@ -252,7 +257,6 @@ fn code(value: &impl Serialize) -> String {
 mod tests {
     use super::*;
     use crate::events::Foul;
-    use crate::ids::PocketId;
     use smallvec::smallvec;
 
     /// All fouls. The match keeps the list complete: a new foul does not compile without a place.

@@ -1,6 +1,6 @@
 //! What a command line may change about a scene; a recording keeps it beside the scene's text.
 
-use super::{PlayerKind, RackKind, Scene};
+use super::{Entrant, RackKind, Scene};
 use crate::ids::{GameKind, PlayerId};
 use serde::{Deserialize, Serialize};
 
@@ -15,9 +15,10 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// Who breaks.
     pub first_player: Option<PlayerId>,
-    /// Kinds of the players, by the names that scenes use; empty: the scene's own.
-    pub players: Vec<PlayerKind>,
-    /// Noise of all computers' strokes, in multiples of the Computer Pool Olympiad's.
+    /// Who plays, from player 1 on; empty: the scene's own.
+    pub players: Vec<Entrant>,
+    /// Noise of all computers' strokes, in multiples of the Computer Pool Olympiad's, unless a
+    /// player has one of its own.
     pub noise: Option<f64>,
 }
 
@@ -37,11 +38,11 @@ impl Overrides {
         if let (Some(first), Some(rules)) = (self.first_player, &mut scene.rules) {
             rules.first_player = first;
         }
-        for (section, kind) in scene.players.iter_mut().zip(&self.players) {
-            section.kind = *kind;
-        }
         if let Some(noise) = self.noise {
             scene.players.iter_mut().for_each(|section| section.noise = Some(noise));
+        }
+        for (section, entrant) in scene.players.iter_mut().zip(&self.players) {
+            entrant.apply(section);
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The paper's computer player, without physics: its table is made of positions.
 
+mod blind;
 mod ideas;
+mod learn;
 mod plan;
 mod player;
 mod searching;

@@ -52,6 +52,8 @@ mod snooker;
 mod sound;
 /// Tables: dimensions measured back from the vertices, closed body, pockets.
 mod table;
+/// What a player tells of its thoughts, and how it is drawn.
+mod thoughts;
 /// What the clock leaves out and what it must not.
 mod tick;
 /// The shape of the repository.

@@ -53,8 +53,18 @@ fn refused(arguments: &[&str], expected: &str) {
 #[test]
 fn every_command_teaches_with_an_example() {
     let commands = [
-        "play", "simulate", "match", "replay", "render", "scene", "scenes", "rules", "validate",
+        "play",
+        "simulate",
+        "match",
+        "tournament",
+        "replay",
+        "render",
+        "scene",
+        "scenes",
+        "rules",
+        "validate",
         "report",
+        "learn",
     ];
     for command in commands {
         let output = program(&[command, "--help"]);
@@ -230,6 +240,43 @@ fn validate_prints_a_line_a_case_and_exits_with_1_if_one_fails() {
         shown.contains("FAIL") && shown.ends_with("0 pass, 1 fail, 0 unsupported\n"),
         "{shown}"
     );
+}
+
+#[test]
+fn learn_writes_a_figure_and_numbers_for_each_condition_and_the_same_bytes_again() {
+    let written = |name: &str| {
+        let folder = folder(name);
+        let out = folder.to_str().unwrap();
+        let arguments = ["learn", "--out", out, "--profile", "2009", "--no-ball-friction"];
+        let output =
+            program(&[&arguments[..], &["--seeds", "3", "--shots", "25", "--json"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let rows = lines(&output.stdout);
+        let ids: Vec<_> = rows[..2].iter().map(|row| row["condition"].as_str().unwrap()).collect();
+        assert_eq!(ids, ["2009_no_friction_no_back_dating", "2009_no_friction"]);
+        assert_eq!(rows[2]["summary"]["conditions"], 2);
+        let read = |file: String| std::fs::read_to_string(folder.join(file)).unwrap();
+        let csv = read(format!("{}.csv", ids[1]));
+        assert_eq!(csv.lines().count(), 26, "{csv}");
+        assert!(csv.starts_with("shot,cut_deg,"), "{csv}");
+        let svg = read(format!("{}.svg", ids[1]));
+        assert!(svg.contains("threshold") && svg.contains("hit rate, mean of 10"), "{svg}");
+        let summary: Value = serde_json::from_str(&read("summary.json".into())).unwrap();
+        assert_eq!(summary["conditions"][0], rows[0]);
+        [csv, svg, read("LEARN.md".into())]
+    };
+    assert_eq!(written("learn"), written("learn_again"));
+}
+
+#[test]
+fn learn_makes_the_shipped_throw_table() {
+    let file = folder("throw").join("throw.toml");
+    let output = program(&["learn", "--throw-table", file.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let made = std::fs::read_to_string(&file).unwrap();
+    assert_eq!(made, hapticbillard::shipped::THROW_TABLE);
+    let summary = &lines(&output.stdout)[0]["summary"];
+    assert!(summary["error_deg"].as_f64() < summary["best_single_error_deg"].as_f64());
 }
 
 #[test]

@@ -68,6 +68,8 @@ mod supervision;
 /// The progress bar.
 #[cfg(unix)]
 mod terminal;
+/// Tournaments and matches.
+mod tournament;
 /// A whole game in a window.
 #[cfg(feature = "renderer")]
 mod whole_game;

@@ -1,15 +1,19 @@
 //! Pictures without a window, at small sizes.
 
-use glam::DVec3;
-use hapticbillard::events::FactSet;
-use hapticbillard::ids::BallId;
+use glam::{DVec2, DVec3};
+use hapticbillard::events::{FactSet, Insight, Prospect, ProspectKind, Way, WayEnd};
+use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::{CameraPose, HumanView};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::renderer::{BallInstance, DrawList, Radii, ball_look};
+use hapticbillard::renderer::{
+    BallInstance, DrawList, Hud, Radii, ThoughtsPanel, Words, ball_look, draw_thoughts,
+};
+use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
-use hapticbillard_actors::renderer::{number_layer, pixels};
+use hapticbillard_actors::renderer::{number_layer, pixels, written};
+use smallvec::smallvec;
 
 const SIZE: (u32, u32) = (320, 200);
 
@@ -109,4 +113,66 @@ fn numbers_are_not_mirrored_and_stand_upright() {
         }
     }
     assert!(plain > mirrored + 30 && plain > upside + 30, "{plain} {mirrored} {upside}");
+}
+
+fn way(from: DVec2, to: DVec2, leads_to: WayEnd, is_free: bool) -> Way {
+    Way { from, to, leads_to, is_free, is_chosen: false }
+}
+
+/// Two balls, two ways each; the 3 is played.
+fn insight() -> Insight {
+    let (cue_ball, pocket) = (DVec2::new(-0.6, -0.2), DVec2::new(1.2, 0.57));
+    let shot = |ball: u16, at: DVec2, chance: f64, is_chosen: bool| Prospect {
+        kind: ProspectKind::Pot,
+        ball: Some(BallId(ball)),
+        pocket: Some(PocketId::Fl),
+        ghost: at - (pocket - at).normalize() * 0.057,
+        ways: smallvec![
+            Way { is_chosen, ..way(cue_ball, at, WayEnd::Ball(BallId(ball)), true) },
+            Way { is_chosen, ..way(at, pocket, WayEnd::Pocket(BallId(ball), PocketId::Fl), true) },
+        ],
+        chance: Some(chance),
+        legal: Some(0.98),
+        value: Some(chance * 0.8),
+        samples: 64,
+        is_chosen,
+    };
+    let (three, six) = (DVec2::new(0.1, 0.1), DVec2::new(0.5, -0.3));
+    Insight {
+        player: PlayerId::ONE,
+        cue_ball,
+        ways: vec![
+            way(cue_ball, six, WayEnd::Ball(BallId(6)), true),
+            way(six, DVec2::new(1.2, -0.57), WayEnd::Pocket(BallId(6), PocketId::Fr), false),
+        ],
+        prospects: vec![shot(6, six, 0.31, false), shot(3, three, 0.87, true)],
+    }
+}
+
+#[test]
+fn chances_stand_on_the_table_and_their_panel_beside_it() {
+    let table = Table::preset("pool-9ft").unwrap();
+    let camera = CameraPose::above(2.54).aside(0.43);
+    let view = HumanView { camera, ..HumanView::default() };
+    let mut list = DrawList::new(&Snapshot::default(), &view, &Radii::default());
+    let insight = insight();
+    draw_thoughts(&insight, &Radii::default(), &mut list);
+    let (texts, words) = (Texts::new(Language::English), Words::new(Language::English));
+    let panel = ThoughtsPanel::new(&insight, "Ann", &texts, &words);
+    let hud = Hud { thoughts: Some(panel), ..Hud::default() };
+    let (Ok(with), Ok(without)) = (
+        written(&table, &list, &hud, SIZE),
+        written(&table, &DrawList { labels: Vec::new(), ..list.clone() }, &Hud::default(), SIZE),
+    ) else {
+        return;
+    };
+    let differ = |x: u32, y: u32| at(&with, x, y) != at(&without, x, y);
+    // Where the label of the 3 stands, by the same perspective as everything on the table.
+    let [x, y, z] = list.labels.iter().find(|label| label.is_bold).unwrap().at.map(f64::from);
+    let aspect = f64::from(SIZE.0) / f64::from(SIZE.1);
+    let [right, down] = camera.place_of(DVec3::new(x, y, z), aspect).unwrap();
+    let (x, y) = ((right * f64::from(SIZE.0)) as u32, (down * f64::from(SIZE.1)) as u32);
+    assert!((x - 3..x + 3).any(|x| differ(x, y)), "no label at {x}, {y}");
+    assert!(differ(SIZE.0 - 30, 30), "no panel");
+    assert!(!differ(20, SIZE.1 - 20), "written where nothing is");
 }

@@ -53,7 +53,7 @@ fn actors_give_the_bits_of_lockstep_with_any_number_of_workers() {
 #[test]
 fn players_that_search_in_the_background_decide_as_in_lockstep() {
     let stage = stage("eight_ball_headless", 3);
-    let players = vec![PlayerKind::Computer(70), PlayerKind::Club];
+    let players = vec![PlayerKind::Computer(70).into(), PlayerKind::Club.into()];
     let stage = stage.with(Overrides { players, seed: Some(5), ..Overrides::default() });
     let limit = Tick(120_000);
     let reference = lockstep(&stage, Pace::Jump, limit);

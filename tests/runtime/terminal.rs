@@ -17,6 +17,7 @@ fn long_commands(shots: &str) -> Vec<(Vec<&str>, &'static str)> {
         (vec!["simulate", "--scene", "one_ball", "--bench", "50", "--json"], "shots"),
         (vec!["simulate", "--scene", "free_play", "--batch", shots, "--json"], "shots"),
         (vec!["validate", "--only", "B05", "D04", "P07", "--json"], "cases"),
+        (vec!["learn", "--check", "--json"], "lessons"),
     ]
 }
 

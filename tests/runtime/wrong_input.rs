@@ -90,7 +90,7 @@ fn one_shot(name: &str, keys: &str) -> String {
 /// Options are refused by the parser of the command line, which also shows how to use them.
 #[test]
 fn wrong_options_exit_with_2_and_name_the_option() {
-    let wrong: [(&[&str], &str); 16] = [
+    let wrong: [(&[&str], &str); 22] = [
         (&["play", "--speed", "0"], "--speed"),
         (&["play", "--record", "a.jsonl", "--no-record"], "--no-record"),
         (&["simulate"], "--scene"),
@@ -107,6 +107,12 @@ fn wrong_options_exit_with_2_and_name_the_option() {
         (&["rules", "--game", "croquet"], "--game"),
         (&["replay"], "<FILE>"),
         (&["render", "--scene", "one_ball"], "--out"),
+        (&["learn"], "--out"),
+        (&["learn", "--out", "x", "--profile", "2010"], "--profile"),
+        (&["learn", "--out", "x", "--outliers", "1.1"], "--outliers"),
+        (&["learn", "--out", "x", "--shots", "19"], "--shots"),
+        (&["learn", "--out", "x", "--observation-error", "NaN"], "--observation-error"),
+        (&["learn", "--check", "--no-threshold"], "--no-threshold"),
     ];
     for (arguments, option) in wrong {
         let output = program(arguments);

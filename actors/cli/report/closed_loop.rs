@@ -1,6 +1,7 @@
 //! How stiff a haptic wall may be: measured, drawn and written down.
 
-use super::figure::{self, failed};
+use super::figure;
+use crate::cli::plot::failed;
 use hapticbillard::report::{self, LOOP_HANDS, LoopRow};
 use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;

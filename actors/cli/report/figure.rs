@@ -2,10 +2,10 @@
 
 use super::measure::{Measured, Timed};
 use super::peers::{self, Curve};
+use crate::cli::plot::failed;
 use hapticbillard::report::{self, Growth, PeerRow, Peers, Status};
 use hapticbillard_actors::error::Error;
 use plotters::prelude::*;
-use std::fmt::Display;
 
 /// The file of the figure on chaos.
 pub const CHAOS: &str = "chaos.svg";
@@ -32,10 +32,6 @@ const EXACT: [(&str, RGBColor, u32); 2] = [
 /// Other programs' colours.
 const OTHERS: [RGBColor; 4] =
     [RGBColor(140, 20, 20), RGBColor(110, 60, 160), RGBColor(60, 110, 20), RGBColor(130, 110, 60)];
-
-pub(super) fn failed(error: impl Display) -> Error {
-    Error::Output(std::io::Error::other(format!("a figure could not be drawn: {error}")))
-}
 
 /// The file of a scene's figure.
 pub fn name(measured: &Measured) -> String {

@@ -1,6 +1,6 @@
 //! What the computer players take to decide, and whether they win.
 
-use hapticbillard::cast::seed_of;
+use hapticbillard::hash::seed_of;
 use hapticbillard::ids::PlayerId;
 use hapticbillard::scene::Overrides;
 use hapticbillard_actors::error::Error;

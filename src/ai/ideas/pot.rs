@@ -80,7 +80,8 @@ pub(super) fn pots(position: &Position<'_>, found: &mut Vec<Idea>) {
     }
 }
 
-fn pot(
+/// This ball into this pocket through this gap.
+pub(super) fn pot(
     position: &Position<'_>,
     ball: BallId,
     at: DVec2,

@@ -24,6 +24,8 @@ const CUSHIONS: usize = 6;
 /// The cue ball's spin at the first ball, over that of rolling, and the height of the tip that
 /// makes about that.
 const SPINS: [(f64, f64); 3] = [(1.0, 0.4), (0.0, -0.1), (-0.7, -0.4)];
+/// Harder strokes are not proposed: speed of the tip [m/s].
+const TIP_MOST_M_S: f64 = 7.0;
 /// Speed that the cue ball shall have when it meets the last ball [m/s].
 const ARRIVAL_M_S: f64 = 0.3;
 
@@ -169,13 +171,18 @@ fn to_second(
     let (to_ball_m, to_end_m) = (before.length_m(), after.length_m());
     let cushions = cushions_before + bounces;
     let gain = gain(to_ball_m, cut_rad, position.radius());
-    let coarse = both(CAROM_RAD, CUSHION_RAD * (cushions as f64).sqrt());
+    let coarse_before = gain * CUSHION_RAD * (cushions_before as f64).sqrt();
+    let coarse_after = both(CAROM_RAD, CUSHION_RAD * (bounces as f64).sqrt());
+    let coarse = both(coarse_before, coarse_after);
     let allowed = Window { right: -(apart + aside) / to_end_m, left: (apart - aside) / to_end_m };
     let legs = |trail: &Trail| -> SmallVec<[f64; 8]> {
         trail.points.windows(2).map(|pair| pair[0].distance(pair[1])).collect()
     };
     let off_first = launch_by_cushions(&legs(&after), ARRIVAL_M_S);
     let tip = launch_by_cushions(&legs(before), off_first / share) / BALL_PER_TIP_SPEED;
+    if tip > TIP_MOST_M_S {
+        return None;
+    }
     let ways = [(before, first), (&after, second)];
     Some(Idea {
         kind: IdeaKind::Carom,

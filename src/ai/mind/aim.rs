@@ -2,9 +2,11 @@
 
 use super::world::World;
 use super::{Mind, Outcome, trial};
-use crate::ai::geometry::signed_angle;
+use crate::ai::geometry::{signed_angle, turned as rotated};
 use crate::ai::hold;
 use crate::ai::ideas::Idea;
+use crate::ai::settings::Level;
+use crate::ai::speed::{BALL_PER_TIP_SPEED, arrival_speed};
 use crate::cue::Aim;
 
 /// Good enough [rad]: 0.3 mm at the other end of the table.
@@ -68,13 +70,34 @@ fn turned(world: &World, mind: &Mind, idea: &Idea, mut aim: Aim, speed_m_s: f64)
     Some(aim)
 }
 
+/// The azimuth by the learned throw: geometry, turned away from the cut by f of cut and speed.
+fn by_table(world: &World, mind: &Mind, idea: &Idea, aim: Aim, speed_m_s: f64) -> Option<Aim> {
+    let (way, cue) = (idea.first_way?, world.view.cue_ball?);
+    let ball = world.view.position(idea.first?)?;
+    let start_m_s = BALL_PER_TIP_SPEED * speed_m_s;
+    let ball_speed_m_s = arrival_speed(start_m_s, idea.to_ball_m);
+    let mut direction = idea.direction;
+    // The ghost depends on the cut, which depends a little on the ghost.
+    for _ in 0..3 {
+        let cut_rad = signed_angle(direction, way);
+        let factor = mind.throw_table.factor(cut_rad, ball_speed_m_s);
+        let ghost = ball - 2.0 * mind.ball_radius_m * rotated(way, factor * cut_rad);
+        direction = (ghost - cue).try_normalize()?;
+    }
+    Some(Aim { azimuth_rad: libm::atan2(direction.y, direction.x), ..aim })
+}
+
 /// The best noise-free outcome of an idea with this touch: aimed by the first ball's way, or in
 /// the middle of the azimuths that work.
 pub fn best(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Outcome {
     let Some((aim, speed_m_s)) = along(mind, world, idea, touch) else { return Outcome::default() };
     let exactly = |aim| trial::exactly(mind, world, idea, aim, speed_m_s);
     if idea.first_way.is_some() {
-        let Some(aim) = turned(world, mind, idea, aim, speed_m_s) else {
+        let aimed = match mind.level {
+            Level::Champion => turned(world, mind, idea, aim, speed_m_s),
+            Level::Club | Level::Paper => by_table(world, mind, idea, aim, speed_m_s),
+        };
+        let Some(aim) = aimed else {
             return Outcome { aim, speed_m_s, simulations: 1, ..Outcome::default() };
         };
         let outcome = exactly(aim);

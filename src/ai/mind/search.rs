@@ -11,7 +11,7 @@ use super::{Mind, Outcome, Task, Workers};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
 use crate::ai::settings::Level;
-use crate::cast::seed_of;
+use crate::hash::seed_of;
 
 /// Hardest tip [m/s], but for a break.
 const SPEED_MOST_M_S: f64 = 6.0;

@@ -1,14 +1,16 @@
 //! From the decision what to play to the end of the shot: aiming, the stroke, watching.
 
+use super::search::Search;
 use super::{Player, command};
 use crate::ai::choose::call;
 use crate::ai::hold;
+use crate::ai::insight::{insight_of_plan, insight_of_thoughts};
 use crate::ai::mind::{Decision, PlannedShot, TaskKind};
 use crate::ai::plan::{Goal, plan_shot};
 use crate::ai::stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 use crate::ai::view::TableView2d;
 use crate::cue::{Aim, CuePath};
-use crate::events::{Call, Command, PlayerState, Turn};
+use crate::events::{Call, Command, Event, PlayerState, Turn};
 use crate::tick::{Delivered, Outcome};
 use crate::units::Tick;
 use glam::DVec2;
@@ -55,6 +57,7 @@ impl Player {
         if let Some(plan) = &mut self.plan {
             plan.speed_m_s = stroke.speed_m_s;
         }
+        self.tell(cue_ball, out);
         // It is heard long before the tip has come to the ball.
         if let Some(call) = intent.call {
             command(Command::Call(call), out);
@@ -66,6 +69,16 @@ impl Player {
         self.due = path.end_s().map(Tick::containing);
         self.report(PlayerState::Aiming, out);
         move_cue(path, out);
+    }
+
+    /// Tells whoever watches what it had in mind.
+    fn tell(&self, cue_ball: DVec2, out: &mut Outcome) {
+        let thought = || self.search.as_ref().and_then(Search::deliberation);
+        let insight = match &self.plan {
+            Some(plan) => Some(insight_of_plan(self.id, plan)),
+            None => thought().map(|it| insight_of_thoughts(self.id, cue_ball, &it.thoughts)),
+        };
+        out.publish.extend(insight.map(|insight| Event::Insight(Arc::new(insight)).into()));
     }
 
     /// What the paper's player would play: through the middle of the cue ball, the cue held over

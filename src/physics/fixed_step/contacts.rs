@@ -252,7 +252,8 @@ impl FixedStep {
 
     /// All pairs of a cluster that nearly touch, with the unit vector from the second to the first.
     /// Without back-dating the normal is that at the step's end, as an overlap test would find it
-    /// (paper, section 5.4.3).
+    /// (paper, section 5.4.3), unless the balls do not close along it: then nothing would come of
+    /// the contact, and it would be found again and again.
     fn pairs_of(
         &self,
         members: &[usize],
@@ -260,13 +261,17 @@ impl FixedStep {
         other: usize,
     ) -> SmallVec<[(usize, usize, DVec3); 32]> {
         let mut pairs = SmallVec::new();
-        let at = if self.settings.contact_back_dating { contact.tau } else { self.h };
+        let (dated, tau) = (self.settings.contact_back_dating, contact.tau);
         for (place, a) in members.iter().enumerate() {
             for b in &members[place + 1..] {
                 let own = *a == contact.ball && *b == other;
                 if own || self.gap(*a, *b, contact.tau) <= tolerance::CLUSTER_M {
-                    let line = self.bodies[*a].path.at(at) - self.bodies[*b].path.at(at);
-                    pairs.push((*a, *b, line.normalize_or(DVec3::X)));
+                    let (one, two) = (&self.bodies[*a], &self.bodies[*b]);
+                    let normal = |at| (one.path.at(at) - two.path.at(at)).normalize_or(DVec3::X);
+                    let late = normal(self.h);
+                    let closes = (one.velocity - two.velocity).dot(late) < -tolerance::CLOSING_M_S;
+                    let found = if dated || !closes { normal(tau) } else { late };
+                    pairs.push((*a, *b, found));
                 }
             }
         }

@@ -124,7 +124,7 @@ fn cast(players: [PlayerKind; 2], noise: f64, seed: u64) -> Cast {
 fn cast_of(scene: &str, players: [PlayerKind; 2], noise: f64, seed: u64) -> Cast {
     let mut scene = Scene::parse(scene, shipped::scene(scene).unwrap()).unwrap();
     let overrides = Overrides {
-        players: players.to_vec(),
+        players: players.map(Into::into).to_vec(),
         seed: Some(seed),
         noise: Some(noise),
         ..Overrides::default()
@@ -479,7 +479,7 @@ fn every_level_plays_carom_but_the_papers() {
     assert!(one > 0 && two > 0, "each with a ball of its own");
 
     let mut scene = Scene::parse("c", shipped::scene("free_carom").unwrap()).unwrap();
-    let players = vec![PlayerKind::Paper, PlayerKind::Club];
+    let players = vec![PlayerKind::Paper.into(), PlayerKind::Club.into()];
     Overrides { players, ..Overrides::default() }.apply(&mut scene);
     let table = Arc::new(scene.build_table(&mut |_| Err("no meshes".into())).unwrap());
     let error = Cast::new(&scene, table).err().unwrap().to_string();
