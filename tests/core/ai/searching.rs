@@ -36,10 +36,12 @@ enum News {
     Dropped(TaskKind),
 }
 
+type Answer = Arc<dyn Fn(&Mind, &Task) -> Decision + Send + Sync>;
+
 /// Somebody who answers at once, and writes down what is asked.
 #[derive(Clone)]
 struct Oracle {
-    answer: Arc<dyn Fn(&Mind, &Task) -> Decision + Send + Sync>,
+    answer: Answer,
     news: Arc<Mutex<Vec<News>>>,
     tasks: Arc<Mutex<Vec<Task>>>,
 }
@@ -356,12 +358,10 @@ impl Participant for Watched {
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
         let shoots = self.player.state() == PlayerState::Shooting;
         let struck = delivered.events.iter().find_map(|stamped| match stamped.event {
-            Event::Fact(Fact { kind, .. }) => match kind {
-                FactKind::CueBallStruck { ball, normal_speed_m_s, .. } => {
-                    Some((ball, normal_speed_m_s))
-                }
-                _ => None,
-            },
+            Event::Fact(Fact {
+                kind: FactKind::CueBallStruck { ball, normal_speed_m_s, .. },
+                ..
+            }) => Some((ball, normal_speed_m_s)),
             _ => None,
         });
         if let (true, Some((ball, normal_m_s)), Some(stroke)) =
