@@ -110,3 +110,73 @@ impl Workers for Pool {
         self.cancelled.load(Ordering::Relaxed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hapticbillard::ai::{Level, MindSetup, StrokeNoise, TaskKind};
+    use hapticbillard::ball::POOL_RADIUS_M;
+    use hapticbillard::cue::TIP_RADIUS_M;
+    use hapticbillard::events::Event;
+    use hapticbillard::ids::GameKind;
+    use hapticbillard::physics::{PhysicsSettings, Simulation};
+    use hapticbillard::rack::Rack;
+    use hapticbillard::rules::Referee;
+    use hapticbillard::table::Table;
+
+    /// A question before a break, and a mind for it.
+    fn question() -> (Arc<Mind>, Task) {
+        let table = Table::preset("pool-9ft").unwrap();
+        let balls = Rack::eight_ball(7).place(&table).unwrap();
+        let settings = PhysicsSettings::default();
+        let simulation = Simulation::from_parts(&table, balls.clone(), &settings).unwrap();
+        let lies = simulation.snapshot(0.0).balls;
+        let mut referee = Referee::new(GameKind::PaperEightBall);
+        let sayings = referee.begin(lies.iter().skip(1).map(|ball| ball.id));
+        let called = sayings.into_iter().find_map(|saying| match saying {
+            Event::Turn(turn) => Some(turn),
+            _ => None,
+        });
+        let mind = Mind::new(MindSetup {
+            simulation,
+            balls: balls.into_iter().map(|(ball, _)| ball).collect(),
+            bed: table.bed.unwrap(),
+            table: Arc::new(table),
+            ball_radius_m: POOL_RADIUS_M,
+            tip_radius_m: TIP_RADIUS_M,
+            delay_s: 0.0,
+            game: GameKind::PaperEightBall,
+            level: Level::Club,
+            noise: StrokeNoise::OLYMPIAD,
+            simulations: 20,
+        });
+        let turn = called.unwrap();
+        let (kind, played_from, has_asked) = (TaskKind::Shoot, None, false);
+        let task = Task { kind, lies, referee, turn, played_from, has_asked, seed: 5 };
+        (Arc::new(mind), task)
+    }
+
+    #[test]
+    fn threads_change_no_answer_and_a_search_that_died_is_done_again() {
+        let (mind, task) = question();
+        let alone = mind.deliberate(&task, &Inline);
+        assert!(alone.simulations > 0);
+        assert_eq!(ThinkAhead.begin(&mind, task.clone()).finish(), alone);
+
+        let search = Some(thread::spawn(|| panic!("the search is made to fail here")));
+        let died = Ahead { search, cancelled: Arc::default(), mind, task };
+        assert_eq!(Box::new(died).finish(), alone);
+    }
+
+    #[test]
+    fn a_search_that_nobody_waits_for_ends() {
+        let (mind, task) = question();
+        drop(ThinkAhead.begin(&mind, task));
+        // Only the thread holds the mind besides; it gives it back when it ends.
+        let patience = std::time::Instant::now() + std::time::Duration::from_secs(20);
+        while Arc::strong_count(&mind) > 1 {
+            assert!(std::time::Instant::now() < patience, "the search goes on");
+            thread::sleep(std::time::Duration::from_millis(1));
+        }
+    }
+}

@@ -154,7 +154,7 @@ fn play(desk: &Desk, table: &Table) -> Seen {
 /// often runs the table before a person has shown anything.
 fn scene_text() -> String {
     let text = hapticbillard::shipped::scene("eight_ball").unwrap();
-    let text = text.replace("kind = \"paper\"", "kind = \"paper\"\nnoise = 4");
+    let text = text.replace("kind = \"computer\"\nstrength = 50", "kind = \"paper\"\nnoise = 4");
     text.replace("width = 1280", &format!("width = {}", SIZE.0))
         .replace("height = 720", &format!("height = {}", SIZE.1))
 }

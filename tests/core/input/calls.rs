@@ -358,7 +358,8 @@ fn a_person_chooses_after_a_soft_break_and_breaks_again() {
 
 fn two_people(name: &str) -> Scene {
     let text = hapticbillard::shipped::scene(name).unwrap();
-    Scene::parse("two.toml", &text.replace("kind = \"paper\"", "kind = \"human\"")).unwrap()
+    let text = text.replace("kind = \"computer\"\nstrength = 50", "kind = \"human\"");
+    Scene::parse("two.toml", &text).unwrap()
 }
 
 #[test]

@@ -170,7 +170,7 @@ fn a_person_and_a_computer_play_eight_ball_to_its_end() {
 #[test]
 fn two_people_share_the_mouse() {
     let text = hapticbillard::shipped::scene("eight_ball").unwrap();
-    let text = text.replace("kind = \"paper\"", "kind = \"human\"");
+    let text = text.replace("kind = \"computer\"\nstrength = 50", "kind = \"human\"");
     let scene = hapticbillard::scene::Scene::parse("two.toml", &text).unwrap();
     let mut desk = Desk::new(&scene);
     desk.wait(3);
