@@ -36,12 +36,17 @@ pub fn insight_of_plan(player: PlayerId, plan: &Plan) -> Insight {
     }
 }
 
-/// What a searching player had in mind, for a cue ball at `cue_ball` [m].
-pub fn insight_of_thoughts(player: PlayerId, cue_ball: DVec2, thoughts: &Thoughts) -> Insight {
+/// What a searching player had in mind for a cue ball at `cue_ball` [m], and all `ways` there are.
+pub fn insight_of_thoughts(
+    player: PlayerId,
+    cue_ball: DVec2,
+    thoughts: &Thoughts,
+    ways: &[Line],
+) -> Insight {
     Insight {
         player,
         cue_ball,
-        ways: thoughts.lines.iter().map(way).collect(),
+        ways: ways.iter().map(way).collect(),
         prospects: thoughts.candidates.iter().map(prospect).collect(),
     }
 }

@@ -332,17 +332,24 @@ pub fn plan_shot(
         },
         None => fallback::contact_shot(view, cue, &goal.legal, rng),
     };
-    plan.lines = examined_lines(view, cue, &goal.own, &plan);
+    plan.lines = examined_lines(view, cue, &goal.own, Some(&plan));
     plan
 }
 
-/// Every way from the cue ball to an own ball and from there to a pocket (paper, figure 5.2).
-fn examined_lines(view: &TableView2d, cue: DVec2, own: &[BallId], plan: &Plan) -> Vec<Line> {
+/// Every way from the cue ball to an own ball and from there to a pocket (paper, figure 5.2); those
+/// of a pot that is played are chosen.
+pub(super) fn examined_lines(
+    view: &TableView2d,
+    cue: DVec2,
+    own: &[BallId],
+    played: Option<&Plan>,
+) -> Vec<Line> {
     let mut lines = Vec::new();
     for &ball in own {
         let Some(position) = view.position(ball) else { continue };
-        let chosen = plan.target == Some(ball);
-        let to_ball = if chosen && plan.kind == PlanKind::Pot { plan.ghost } else { position };
+        let plan = played.filter(|plan| plan.target == Some(ball));
+        let pot = plan.filter(|plan| plan.kind == PlanKind::Pot);
+        let (chosen, to_ball) = (plan.is_some(), pot.map_or(position, |pot| pot.ghost));
         lines.push(Line {
             from: cue,
             to: to_ball,
@@ -357,7 +364,7 @@ fn examined_lines(view: &TableView2d, cue: DVec2, own: &[BallId], plan: &Plan) -
                 to,
                 end: LineEnd::Pocket(ball, pocket.id),
                 free: is_free(view, position, to, Some(ball)),
-                chosen: chosen && plan.pocket == Some(pocket.id),
+                chosen: plan.is_some_and(|plan| plan.pocket == Some(pocket.id)),
             }
         }));
     }

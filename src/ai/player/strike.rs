@@ -1,16 +1,15 @@
 //! From the decision what to play to the end of the shot: aiming, the stroke, watching.
 
-use super::search::Search;
 use super::{Player, command};
 use crate::ai::choose::call;
 use crate::ai::hold;
 use crate::ai::insight::{insight_of_plan, insight_of_thoughts};
 use crate::ai::mind::{Decision, PlannedShot, TaskKind};
-use crate::ai::plan::{Goal, plan_shot};
+use crate::ai::plan::{Goal, examined_lines, plan_shot};
 use crate::ai::stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 use crate::ai::view::TableView2d;
 use crate::cue::{Aim, CuePath};
-use crate::events::{Call, Command, Event, PlayerState, Turn};
+use crate::events::{Call, Command, Event, PlayerState, ShotKind, Turn};
 use crate::tick::{Delivered, Outcome};
 use crate::units::Tick;
 use glam::DVec2;
@@ -57,7 +56,7 @@ impl Player {
         if let Some(plan) = &mut self.plan {
             plan.speed_m_s = stroke.speed_m_s;
         }
-        self.tell(cue_ball, out);
+        self.tell(&turn, &view, cue_ball, out);
         // It is heard long before the tip has come to the ball.
         if let Some(call) = intent.call {
             command(Command::Call(call), out);
@@ -72,11 +71,22 @@ impl Player {
     }
 
     /// Tells whoever watches what it had in mind.
-    fn tell(&self, cue_ball: DVec2, out: &mut Outcome) {
-        let thought = || self.search.as_ref().and_then(Search::deliberation);
+    fn tell(&self, turn: &Turn, view: &TableView2d, cue_ball: DVec2, out: &mut Outcome) {
+        let searched = || {
+            let thoughts = &self.search.as_ref()?.deliberation()?.thoughts;
+            let ways = match turn.shot {
+                // The rack stands in its own way.
+                ShotKind::Break => Vec::new(),
+                _ => {
+                    let goal = Goal::of(turn, view, self.played_from);
+                    examined_lines(view, cue_ball, &goal.own, None)
+                }
+            };
+            Some(insight_of_thoughts(self.id, cue_ball, thoughts, &ways))
+        };
         let insight = match &self.plan {
             Some(plan) => Some(insight_of_plan(self.id, plan)),
-            None => thought().map(|it| insight_of_thoughts(self.id, cue_ball, &it.thoughts)),
+            None => searched(),
         };
         out.publish.extend(insight.map(|insight| Event::Insight(Arc::new(insight)).into()));
     }
