@@ -119,3 +119,6 @@ impl Mind {
         lies.iter().filter_map(|state| Some((ball(state)?.clone(), *state))).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;
