@@ -9,10 +9,10 @@
 //! |---:|---|---:|---:|
 //! | 0 | paper | 6.00 | – |
 //! | 15 | paper | 4.59 | – |
-//! | 30 | club | 3.51 | 10 |
-//! | 50 | club | 2.45 | 20 |
-//! | 70 | champion | 1.71 | 100 |
-//! | 85 | champion | 1.31 | 632 |
+//! | 30 | club | 3.51 | 30 |
+//! | 50 | club | 2.45 | 200 |
+//! | 70 | champion | 1.71 | 300 |
+//! | 85 | champion | 1.31 | 1095 |
 //! | 100 | champion | 1.00 | 4000 |
 //!
 //! The noise is in multiples of the Computer Pool Olympiad's, whose azimuth errs by 0.125°; between
@@ -31,11 +31,11 @@ const CLUB_FROM: u8 = 30;
 /// From this strength on as the champion.
 const CHAMPION_FROM: u8 = 70;
 /// Shots that the club's player simulates for a decision, at its weakest and usually.
-const CLUB_SIMULATIONS: [f64; 2] = [10.0, 20.0];
+const CLUB_SIMULATIONS: [f64; 2] = [30.0, 200.0];
 /// The strength at which it does the usual.
 const CLUB_USUAL: u8 = 50;
 /// Shots that the champion simulates for a decision, at its weakest and at its strongest.
-const CHAMPION_SIMULATIONS: [f64; 2] = [100.0, 4000.0];
+const CHAMPION_SIMULATIONS: [f64; 2] = [300.0, 4000.0];
 
 /// How well a computer plays.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -168,10 +168,10 @@ mod tests {
         for (strength, level, noise, simulations) in [
             (0, Level::Paper, 6.0, 0),
             (15, Level::Paper, 4.59, 0),
-            (30, Level::Club, 3.51, 10),
-            (50, Level::Club, 2.45, 20),
-            (70, Level::Champion, 1.71, 100),
-            (85, Level::Champion, 1.31, 632),
+            (30, Level::Club, 3.51, 30),
+            (50, Level::Club, 2.45, 200),
+            (70, Level::Champion, 1.71, 300),
+            (85, Level::Champion, 1.31, 1095),
             (100, Level::Champion, 1.0, 4000),
         ] {
             let settings = of(strength);
@@ -181,6 +181,6 @@ mod tests {
         assert_eq!(of(100), PlayerSettings::of_level(Level::Champion, 1, Profile::Standard));
         assert_eq!(of(101), of(100));
         let club = PlayerSettings::of_level(Level::Club, 1, Profile::Standard);
-        assert_eq!((club.simulations, club.noise), (20, 1.0));
+        assert_eq!((club.simulations, club.noise), (200, 1.0));
     }
 }

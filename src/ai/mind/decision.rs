@@ -1,7 +1,6 @@
 //! What a search answers, and what it thought.
 
 use crate::ai::ideas::Idea;
-use crate::ai::plan::Line;
 use crate::cue::Aim;
 use crate::events::{Call, Choice};
 use glam::DVec2;
@@ -52,8 +51,6 @@ pub struct Deliberation {
 pub struct Thoughts {
     /// Shots, best value first.
     pub candidates: Vec<Considered>,
-    /// Ways that were examined.
-    pub lines: Vec<Line>,
 }
 
 /// A shot that was considered.

@@ -45,11 +45,11 @@ impl Breadth {
     fn of(level: Level, simulations: u32) -> Self {
         const CLUB: Breadth = Breadth {
             leading: 0,
-            ideas: [4, 0, 1],
-            speeds: &[1.5],
-            heights: &[0.0],
+            ideas: [4, 0, 2],
+            speeds: &[1.25, 1.8],
+            heights: &[0.0, -0.3, 0.3],
             sides: &[0.0],
-            leaders: 5,
+            leaders: 10,
             first_round: 8,
             second_look: 0,
         };
@@ -64,7 +64,9 @@ impl Breadth {
             second_look: 6,
         };
         match (level, simulations) {
-            (_, 0..=15) => Breadth { ideas: [2, 0, 1], leaders: 3, ..CLUB },
+            (_, 0..=30) => {
+                Breadth { ideas: [3, 0, 1], speeds: &[1.4], heights: &[0.0], leaders: 4, ..CLUB }
+            }
             (Level::Paper | Level::Club, _) => CLUB,
             (_, 0..=300) => Breadth {
                 leading: 0,
@@ -106,6 +108,11 @@ struct Contender {
 impl Contender {
     fn value(&self) -> f64 {
         if self.samples == 0 { self.promise } else { self.value_sum / f64::from(self.samples) }
+    }
+
+    /// What it is chosen by: the first estimate has more samples, the second look sees further.
+    fn worth(&self) -> f64 {
+        self.looked.map_or_else(|| self.value(), |looked| 0.5 * (looked + self.value()))
     }
 
     fn take(&mut self, outcome: &Outcome) {
@@ -258,11 +265,7 @@ impl Search<'_> {
             contenders[n].looked = Some(sum / looks as f64);
             self.simulations += seen.iter().map(|outcome| outcome.simulations).sum::<u32>();
         }
-        // The first estimate has more samples, the second one sees further.
-        let both = |contender: &Contender| {
-            contender.looked.map_or(f64::NEG_INFINITY, |looked| 0.5 * (looked + contender.value()))
-        };
-        contenders[..last].sort_by(|a, b| both(b).total_cmp(&both(a)));
+        contenders[..last].sort_by(|a, b| b.worth().total_cmp(&a.worth()));
     }
 
     fn conclude(self, contenders: Vec<Contender>) -> Option<Deliberation> {
@@ -280,7 +283,7 @@ impl Search<'_> {
             speed_m_s: first.trial.speed_m_s,
             call: trial::call(&idea, self.world.turn.calls),
             success: share(first.successes, first),
-            value: first.value(),
+            value: first.worth(),
             idea,
         };
         let considered = |(n, contender): (usize, &Contender)| Considered {
@@ -289,15 +292,14 @@ impl Search<'_> {
             speed_m_s: contender.trial.speed_m_s,
             success: share(contender.successes, contender),
             legal: share(contender.legals, contender),
-            value: contender.value(),
+            value: contender.worth(),
             samples: contender.samples,
             chosen: n == 0,
         };
         let candidates = contenders.iter().enumerate().map(considered).collect();
-        let lines = self.ideas.iter().flat_map(|idea| idea.lines.iter().copied()).collect();
         Some(Deliberation {
             decision: Decision::Shoot(Box::new(shot)),
-            thoughts: Thoughts { candidates, lines },
+            thoughts: Thoughts { candidates },
             simulations: self.simulations,
         })
     }
