@@ -3,7 +3,7 @@
 //! Each question has a thread that leads its search; the simulations are done by one pool of
 //! workers, as many as there are cores, which all questions share. Nothing of that decides what is
 //! answered. Whoever asked waits for the answer at its due tick; who does not want it any more
-//! drops the question, and its search ends with the simulations that are under way.
+//! drops the question, and its search ends with the jobs that are under way.
 //!
 //! No queue: a player has one question at a time.
 
@@ -114,7 +114,7 @@ impl Workers for Pool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hapticbillard::ai::{Level, MindSetup, StrokeNoise, TaskKind};
+    use hapticbillard::ai::{Level, MindSetup, StrokeNoise, TaskKind, ThrowTable};
     use hapticbillard::ball::POOL_RADIUS_M;
     use hapticbillard::cue::TIP_RADIUS_M;
     use hapticbillard::events::Event;
@@ -148,6 +148,7 @@ mod tests {
             game: GameKind::PaperEightBall,
             level: Level::Club,
             noise: StrokeNoise::OLYMPIAD,
+            throw: ThrowTable::shipped(),
             simulations: 20,
         });
         let turn = called.unwrap();

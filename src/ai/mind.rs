@@ -64,7 +64,10 @@ pub struct MindSetup {
     pub level: Level,
     /// How its strokes err, and what it reckons with.
     pub noise: StrokeNoise,
-    /// Shots that it may simulate for a decision.
+    /// How the club's player allows for throw.
+    pub throw: ThrowTable,
+    /// Shots that it may simulate for a decision, to their end; the short runs to the first contact
+    /// by which a pot is aimed are not counted.
     pub simulations: u32,
 }
 
@@ -73,8 +76,6 @@ pub struct MindSetup {
 pub struct Mind {
     setup: MindSetup,
     races: Races,
-    /// How the club's player allows for throw.
-    throw_table: ThrowTable,
 }
 
 impl std::ops::Deref for Mind {
@@ -89,7 +90,7 @@ impl Mind {
     /// A mind that has not thought yet.
     pub fn new(setup: MindSetup) -> Self {
         let races = Races::new(setup.game, &setup.noise);
-        Mind { setup, races, throw_table: ThrowTable::shipped() }
+        Mind { setup, races }
     }
 
     /// Answers a question. The same question, mind and seed give the same answer, however many

@@ -30,9 +30,9 @@ const NOISE_MAX: f64 = 6.0;
 const CLUB_FROM: u8 = 30;
 /// From this strength on as the champion.
 const CHAMPION_FROM: u8 = 70;
-/// Shots that the club's player simulates for a decision, at its weakest and usually.
+/// Shots that the club's player simulates for a decision, at its weakest and at most.
 const CLUB_SIMULATIONS: [f64; 2] = [30.0, 200.0];
-/// The strength at which it does the usual.
+/// The strength from which on it does the most.
 const CLUB_USUAL: u8 = 50;
 /// Shots that the champion simulates for a decision, at its weakest and at its strongest.
 const CHAMPION_SIMULATIONS: [f64; 2] = [300.0, 4000.0];
@@ -43,7 +43,7 @@ pub enum Level {
     /// As the paper's: geometry from above, no look into the future.
     #[default]
     Paper,
-    /// Geometry proposes, a few simulations of the best ideas decide.
+    /// Geometry proposes and aims, simulations of the best pots under its own noise decide.
     Club,
     /// Every kind of shot, aimed and chosen by simulation under its own noise; looks at the shot
     /// after.
@@ -127,7 +127,7 @@ fn simulations(level: Level, strength: u8) -> u32 {
         Level::Champion => (CHAMPION_SIMULATIONS, CHAMPION_FROM, STRENGTH_MAX),
     };
     let share = f64::from(strength.saturating_sub(from)) / f64::from(to - from);
-    libm::round(between(bounds, share)) as u32
+    libm::round(between(bounds, share.min(1.0))) as u32
 }
 
 /// From the one at 0 to the other at 1, by the same factor everywhere.

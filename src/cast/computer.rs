@@ -1,7 +1,7 @@
 //! The computer players of a scene, with all that they think with.
 
 use super::CastError;
-use crate::ai::{Level, Mind, MindSetup, Player, PlayerSettings};
+use crate::ai::{Level, Mind, MindSetup, Player, PlayerSettings, ThrowTable};
 use crate::ball::{Ball, BallState};
 use crate::hash::seed_of;
 use crate::ids::PlayerId;
@@ -88,6 +88,10 @@ impl Surroundings<'_> {
             game: referee.game(),
             level: settings.level,
             noise: settings.stroke_noise(),
+            throw: match self.scene.physics.profile {
+                Profile::Standard => ThrowTable::shipped(),
+                Profile::Paper2009 => ThrowTable::constant(settings.throw_factor),
+            },
             simulations: settings.simulations,
         });
         Ok(player(settings).with_mind(Arc::new(mind), referee.clone()))
@@ -130,6 +134,7 @@ impl Surroundings<'_> {
                 let (balls, parameters) = (self.balls.to_vec(), self.scene.parameters());
                 let simulation =
                     Simulation::with_parameters(self.table, balls, &exact, parameters)?;
+                let simulation = simulation.with_racks(self.scene.racks(self.table));
                 Ok(Own { simulation, delay_s: 0.0 })
             }
             (SolverKind::FixedStep, Profile::Paper2009) => {

@@ -19,6 +19,8 @@ const SLOPE_LEAST: f64 = 0.3;
 /// many steps.
 const SCAN_RAD: f64 = 1.5 * std::f64::consts::PI / 180.0;
 const SCAN_STEPS: usize = 12;
+/// Simulations of a scan.
+pub const SCAN: u32 = SCAN_STEPS as u32 + 2;
 
 /// How hard and where on the ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +82,7 @@ fn by_table(world: &World, mind: &Mind, idea: &Idea, aim: Aim, speed_m_s: f64) -
     // The ghost depends on the cut, which depends a little on the ghost.
     for _ in 0..3 {
         let cut_rad = signed_angle(direction, way);
-        let factor = mind.throw_table.factor(cut_rad, ball_speed_m_s);
+        let factor = mind.throw.factor(cut_rad, ball_speed_m_s);
         let ghost = ball - 2.0 * mind.ball_radius_m * rotated(way, factor * cut_rad);
         direction = (ghost - cue).try_normalize()?;
     }
@@ -104,13 +106,14 @@ pub fn best(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Outcome {
         if outcome.success || !is_worth_a_scan(idea) {
             return outcome;
         }
-        return scanned(aim, exactly);
+        let scanned = scanned(aim, exactly);
+        return Outcome { simulations: SCAN, ..scanned };
     }
     if is_worth_a_scan(idea) { scanned(aim, exactly) } else { exactly(aim) }
 }
 
 /// Where geometry alone is too rough.
-fn is_worth_a_scan(idea: &Idea) -> bool {
+pub fn is_worth_a_scan(idea: &Idea) -> bool {
     use crate::ai::ideas::IdeaKind::{Bank, Carom, Combination, Kick};
     matches!(idea.kind, Bank | Carom | Combination | Kick)
 }

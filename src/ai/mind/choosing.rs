@@ -33,8 +33,15 @@ fn first_best(options: impl Iterator<Item = (Choice, f64)>) -> Option<(Choice, f
     })
 }
 
+/// What it is worth to have a miss played again from where it was: the other failed once, and may
+/// again. Where the balls lay then is not known here.
+const PUT_BACK: f64 = 0.5;
+
 /// Chance that the one who chooses wins after a choice.
 fn worth(mind: &Mind, world: &World, choice: Choice) -> f64 {
+    if choice == Choice::PutBack {
+        return PUT_BACK;
+    }
     let chooser = world.player();
     let mut referee = world.referee().clone();
     let sayings = referee.obey(Source::Ai(chooser), &Command::Choose(choice));

@@ -9,6 +9,7 @@ use crate::ai::plan::Goal;
 use crate::ai::stroke::TIP_SPEED_MAX_M_S;
 use crate::events::Zone;
 use crate::hash::seed_of;
+use crate::ids::GameKind;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
@@ -52,7 +53,12 @@ pub fn place(
 
 /// What a break is worth on the average: no two of them are alike.
 fn broken(mind: &Mind, world: &World, idea: &Idea, seed: u64) -> Outcome {
-    let touch = Touch { speed_m_s: TIP_SPEED_MAX_M_S, side: 0.0, height: 0.0 };
+    // Where an open table is no gain, it is opened softly.
+    let speed_m_s = match mind.game {
+        GameKind::Straight | GameKind::Snooker => SPEEDS[1] * idea.speed_least_m_s,
+        _ => TIP_SPEED_MAX_M_S,
+    };
+    let touch = Touch { speed_m_s, side: 0.0, height: 0.0 };
     let Some(stroke) = aim::along(mind, world, idea, touch) else { return Outcome::default() };
     let tried = (0..BREAKS)
         .map(|n| trial::with_noise(mind, world, idea, stroke, seed_of(seed, u64::from(n))));

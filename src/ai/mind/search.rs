@@ -12,6 +12,7 @@ use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
 use crate::ai::settings::Level;
 use crate::ai::stroke::TIP_SPEED_MAX_M_S;
+use crate::events::BallInHand;
 use crate::hash::seed_of;
 use crate::ids::GameKind;
 
@@ -162,14 +163,38 @@ pub fn shoot(
 }
 
 impl Search<'_> {
+    /// What is tried: everything that costs one simulation, then what must be scanned, the first
+    /// touch of every idea before the second of any; for half of the budget.
+    fn tries(&self, breadth: &Breadth) -> Vec<(usize, Touch)> {
+        let is_soft = matches!(self.mind.game, GameKind::Straight | GameKind::Snooker);
+        let mut tries: Vec<(bool, usize, usize, Touch)> = Vec::new();
+        for (n, idea) in self.ideas.iter().enumerate() {
+            let is_leading = n < breadth.leading && idea.kind == IdeaKind::Pot;
+            let is_scanned = aim::is_worth_a_scan(idea);
+            let touches = touches(idea, is_leading, is_soft, breadth).enumerate();
+            tries.extend(touches.map(|(rank, touch)| (is_scanned, rank, n, touch)));
+        }
+        // Stable: what costs little stays in the order of the ideas.
+        tries.sort_by_key(|(is_scanned, rank, ..)| {
+            (*is_scanned, if *is_scanned { *rank } else { 0 })
+        });
+        let mut left = self.mind.simulations / 2;
+        let mut taken = Vec::new();
+        for (is_scanned, _, n, touch) in tries {
+            let cost = if is_scanned { aim::SCAN } else { 1 };
+            // One of them is tried whatever it costs.
+            if left < cost && !taken.is_empty() {
+                break;
+            }
+            left = left.saturating_sub(cost);
+            taken.push((n, touch));
+        }
+        taken
+    }
+
     /// All ideas with their touches, tried as they are meant; the most promising first.
     fn without_noise(&mut self, breadth: &Breadth) -> Vec<Contender> {
-        let tries: Vec<(usize, Touch)> = self
-            .ideas
-            .iter()
-            .enumerate()
-            .flat_map(|(n, idea)| touches(idea, n < breadth.leading, breadth).map(move |t| (n, t)))
-            .collect();
+        let tries = self.tries(breadth);
         let (mind, world, ideas) = (self.mind, self.world, &self.ideas);
         let outcomes = self.workers.run(tries.len(), &|job| {
             let (n, touch) = tries[job];
@@ -194,7 +219,7 @@ impl Search<'_> {
                     promise,
                     samples: 0,
                     successes: 0,
-                    legals: u32::from(outcome.legal),
+                    legals: 0,
                     value_sum: 0.0,
                     looked: None,
                 }
@@ -333,9 +358,11 @@ fn of_each_kind(ideas: Vec<Idea>, breadth: &Breadth) -> Vec<Idea> {
 fn touches<'a>(
     idea: &'a Idea,
     is_leading: bool,
+    is_soft: bool,
     breadth: &'a Breadth,
 ) -> impl Iterator<Item = Touch> + 'a {
-    let is_break = idea.kind == IdeaKind::Break;
+    // Where an open table is no gain, the break is a shot like any other.
+    let is_break = idea.kind == IdeaKind::Break && !is_soft;
     let (most, least) = match is_break {
         true => (TIP_SPEED_MAX_M_S, 0.8 * TIP_SPEED_MAX_M_S),
         false => (SPEED_MOST_M_S, idea.speed_least_m_s),
@@ -354,17 +381,23 @@ fn touches<'a>(
     )
 }
 
-/// The best ones, of which no idea has more than a third, and where anything is played that
-/// pockets nothing, some of that too.
+/// The best ones, of which no idea has more than a third, and a fifth that pockets nothing.
 fn diverse(contenders: Vec<Contender>, wanted: usize, ideas: &[Idea]) -> Vec<Contender> {
     let most = wanted.div_ceil(3);
+    let (mut attacks, mut safeties) = (wanted - wanted / 5, wanted);
     let mut of_idea = vec![0; ideas.len()];
     let mut taken = Vec::with_capacity(wanted);
     let mut rest = Vec::new();
     for contender in contenders {
-        let count = &mut of_idea[contender.trial.idea];
-        if taken.len() < wanted && *count < most {
+        let idea = contender.trial.idea;
+        let count = &mut of_idea[idea];
+        let share = match ideas[idea].pocket.is_some() {
+            true => &mut attacks,
+            false => &mut safeties,
+        };
+        if taken.len() < wanted && *count < most && 0 < *share {
             *count += 1;
+            *share -= 1;
             taken.push(contender);
         } else {
             rest.push(contender);
@@ -388,7 +421,9 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
     let player = world.player();
     let value = value::after(mind, player, &mut played);
     let Some(next) = value::next(mind, &mut played) else { return Outcome { value, ..nothing } };
-    let Some(cue) = next.view.cue_ball.filter(|_| next.turn.options.is_empty()) else {
+    let is_played_as_it_lies =
+        next.turn.options.is_empty() && next.turn.ball_in_hand == BallInHand::None;
+    let Some(cue) = next.view.cue_ball.filter(|_| is_played_as_it_lies) else {
         return Outcome { value, ..nothing };
     };
     let goal = Goal::of(&next.turn, &next.view, None);
@@ -398,6 +433,8 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
     let (mut best, mut simulations) = (value::seen_by(player, &next, value), 1);
     let mut attack: Option<f64> = None;
     for answer in pots {
+        // Of a pot that no touch makes only the miss is left.
+        attack = Some(attack.unwrap_or(prospects.miss));
         for factor in SPEEDS {
             for height in HEIGHTS {
                 let speed_m_s = factor * answer.speed_least_m_s;

@@ -28,6 +28,7 @@ fn champion(noise: f64, simulations: u32) -> Mind {
         game: GameKind::WpaEightBall,
         level: Level::Champion,
         noise: StrokeNoise::olympiad(noise),
+        throw: ThrowTable::shipped(),
         simulations,
     })
 }

@@ -3,6 +3,7 @@
 use super::world::{Played, World};
 use super::{Mind, Outcome, value};
 use crate::ai::ideas::{Idea, IdeaKind};
+use crate::ai::stroke::TIP_SPEED_MAX_M_S;
 use crate::cue::Aim;
 use crate::events::{Call, CallKind, Calls, TurnAfter};
 use crate::ids::PlayerId;
@@ -40,7 +41,8 @@ pub fn with_noise(
 /// What the player's arm makes of a stroke.
 pub fn erred(mind: &Mind, (aim, speed_m_s): (Aim, f64), seed: u64) -> (Aim, f64) {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
-    mind.noise.err(aim, speed_m_s, mind.ball_radius_m, &mut rng)
+    let (aim, speed_m_s) = mind.noise.err(aim, speed_m_s, mind.ball_radius_m, &mut rng);
+    (aim, speed_m_s.min(TIP_SPEED_MAX_M_S))
 }
 
 fn outcome(
@@ -80,12 +82,12 @@ pub fn succeeds(world: &World, idea: &Idea, played: &Played) -> bool {
             goes_on && played.has_pocketed(ball, idea.pocket)
         }
         (IdeaKind::Carom, _) => goes_on,
-        _ => scratches_nobody(played, player),
+        _ => goes_on_or_wins(played, player),
     }
 }
 
-/// A safety leaves the game going on.
-fn scratches_nobody(played: &Played, player: PlayerId) -> bool {
+/// A safety does not lose the game.
+fn goes_on_or_wins(played: &Played, player: PlayerId) -> bool {
     played.verdict.turn != TurnAfter::End || played.verdict.winner == Some(player)
 }
 

@@ -12,7 +12,7 @@ use crate::ids::{GameKind, PlayerId};
 const IN_HAND: f64 = 0.95;
 /// The same from behind the head string, or out of the D.
 const IN_KITCHEN: f64 = 0.75;
-/// Chance that a break pockets something and is legal.
+/// How much likelier than by a break a ball falls from an average position.
 const BREAK: f64 = 0.55;
 
 /// Chance that `player` wins after a shot.
@@ -49,7 +49,9 @@ pub fn position(mind: &Mind, world: &World, played_from: Option<Zone>) -> f64 {
     if world.turn.shot == ShotKind::Break {
         return in_hand(BREAK * mind.races.pot);
     }
-    let Some(cue) = world.view.cue_ball else {
+    // A cue ball that lies may still be taken in hand, unless this very player put it there.
+    let is_in_hand = world.turn.ball_in_hand != BallInHand::None && played_from.is_none();
+    let Some(cue) = world.view.cue_ball.filter(|_| !is_in_hand) else {
         return in_hand(match world.turn.ball_in_hand {
             BallInHand::Kitchen | BallInHand::D => IN_KITCHEN * mind.races.pot,
             BallInHand::Anywhere | BallInHand::None => IN_HAND.min(1.05 * mind.races.pot),

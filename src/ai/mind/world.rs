@@ -46,7 +46,8 @@ pub struct Played {
     /// Who is called to the table, and for what; none if the game is over.
     pub turn: Option<Arc<Turn>>,
     end: Simulation,
-    spotting: Option<Command>,
+    /// Balls that the rules lay down after it.
+    laying: Vec<Command>,
 }
 
 impl World {
@@ -201,12 +202,12 @@ impl World {
             return Err(PhysicsError::NeverRests { limit_s: LONGEST_SHOT_S });
         }
         let sayings = referee.watch_shot(&facts, &end.snapshot(end.now_s()));
-        let (mut verdict, mut turn, mut spotting) = (None, None, None);
+        let (mut verdict, mut turn, mut laying) = (None, None, Vec::new());
         for saying in sayings {
             match saying {
                 Event::Verdict(said) => verdict = Some(said),
                 Event::Turn(called) => turn = Some(called),
-                Event::Command(command @ Command::SpotBalls(_)) => spotting = Some(command),
+                Event::Command(command) => laying.push(command),
                 _ => {}
             }
         }
@@ -215,19 +216,21 @@ impl World {
             let turn = TurnAfter::Continue;
             Arc::new(Verdict { legal: false, turn, ..Verdict::default() })
         });
-        Ok(Played { facts, verdict, referee, turn, end, spotting })
+        Ok(Played { facts, verdict, referee, turn, end, laying })
     }
 }
 
 impl Played {
-    /// The balls after the shot, with those on their spots that the rules put there.
+    /// The balls after the shot, with those that the rules laid down.
     pub fn lies(&mut self) -> Vec<BallState> {
-        if let Some(command) = self.spotting.take() {
+        let laying = std::mem::take(&mut self.laying);
+        if !laying.is_empty() {
             let now = self.end.now_s();
-            let mut facts = Vec::new();
             // A ball that finds no place stays off the table; the next turn says what follows.
-            let _ = self.end.apply(now, &command);
-            let _ = self.end.advance(now + SPOTTING_S, FactSet::NONE, &mut facts);
+            for command in &laying {
+                let _ = self.end.apply(now, command);
+            }
+            let _ = self.end.advance(now + SPOTTING_S, FactSet::NONE, &mut Vec::new());
         }
         let Snapshot { balls, .. } = self.end.snapshot(self.end.now_s());
         balls.into_iter().map(at_rest).collect()

@@ -51,7 +51,7 @@ impl Player {
             _ => self.choice_from_above(&turn, &self.look(&delivered.table)),
         };
         if let Some(choice) = choice {
-            self.has_asked = choice == Choice::AskAgain;
+            self.has_asked = matches!(choice, Choice::AskAgain | Choice::PutBack);
             command(Command::Choose(choice), out);
         }
         self.report(PlayerState::Idle, out);

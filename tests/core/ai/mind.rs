@@ -4,7 +4,7 @@ use super::{BED, R, table};
 use glam::{DQuat, DVec2, DVec3};
 use hapticbillard::ai::{
     Decision, Deliberation, IdeaKind, Inline, Level, Mind, MindSetup, Outcome, PlannedShot,
-    StrokeNoise, Task, TaskKind, Workers,
+    StrokeNoise, Task, TaskKind, ThrowTable, Workers,
 };
 use hapticbillard::ball::{Ball, BallPlace, BallState};
 use hapticbillard::cue::TIP_RADIUS_M;
@@ -36,6 +36,7 @@ fn mind(level: Level, noise: f64, simulations: u32) -> Mind {
         game: GameKind::WpaEightBall,
         level,
         noise: StrokeNoise::olympiad(noise),
+        throw: ThrowTable::shipped(),
         simulations,
     })
 }
@@ -155,16 +156,27 @@ fn what_cannot_be_seen_changes_nothing() {
 #[test]
 fn the_budget_bounds_the_simulations() {
     for (level, budget) in [
-        (Level::Club, 10),
         (Level::Club, 20),
-        (Level::Champion, 100),
+        (Level::Club, 200),
+        (Level::Champion, 40),
+        (Level::Champion, 300),
         (Level::Champion, 600),
         (Level::Champion, 4000),
     ] {
-        let answer = mind(level, 1.0, budget).deliberate(&crowded(), &Inline);
-        let most = budget + budget / 4;
-        assert!(answer.simulations <= most, "{budget}: {}", answer.simulations);
-        assert!(0 < answer.simulations);
+        for task in [crowded(), hidden()] {
+            let answer = mind(level, 1.0, budget).deliberate(&task, &Inline);
+            // A second look ends its last job.
+            let most = budget + budget / 4;
+            assert!(answer.simulations <= most, "{budget}: {}", answer.simulations);
+            let candidates = &answer.thoughts.candidates;
+            let chosen = candidates.iter().find(|one| one.chosen).unwrap();
+            assert!(0 < chosen.samples, "{level:?} {budget}: decided without a single error");
+            for one in candidates {
+                for share in [one.legal, one.success, one.value] {
+                    assert!((0.0..=1.0).contains(&share), "{one:?}");
+                }
+            }
+        }
     }
 }
 
@@ -199,9 +211,8 @@ fn who_is_not_waited_for_ends_after_the_round_that_runs() {
     assert!(matches!(answer.decision, Decision::Shoot(_)), "any answer will do");
 }
 
-#[test]
-fn without_a_pot_the_ball_is_met_and_a_safety_called() {
-    // The 3 hides behind the 9; only a cushion leads to it.
+/// The 3 hides behind the 9; only a cushion leads to it.
+fn hidden() -> Task {
     let balls = [
         (0, DVec2::new(-0.9, 0.0)),
         (3, DVec2::new(0.3, 0.0)),
@@ -210,7 +221,12 @@ fn without_a_pot_the_ball_is_met_and_a_safety_called() {
         (11, DVec2::new(-0.1, -0.0575)),
         (8, DVec2::new(1.0, 0.5)),
     ];
-    let task = task(TaskKind::Shoot, &balls, BallInHand::None);
+    task(TaskKind::Shoot, &balls, BallInHand::None)
+}
+
+#[test]
+fn without_a_pot_the_ball_is_met_and_a_safety_called() {
+    let task = hidden();
     let answer = mind(Level::Champion, 0.0, 2000).deliberate(&task, &Inline);
     let shot = shot(&answer);
     assert_eq!(shot.idea.first, Some(BallId(3)), "{shot:?}");
