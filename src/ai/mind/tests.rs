@@ -122,16 +122,17 @@ fn visit(mind: &Mind, seed: u64) -> Visit {
     }
 }
 
-/// A number from the environment, for runs by hand.
-fn given(name: &str, usual: f64) -> f64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+/// A number that the build was given, for runs by hand.
+fn given(text: Option<&str>, usual: f64) -> f64 {
+    text.and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
 /// `CLEAR_TABLES`, `CLEAR_NOISE` and `CLEAR_SIMULATIONS` make it larger.
 #[test]
 fn a_champion_with_the_ball_in_hand_clears_random_tables() {
-    let (tables, noise) = (given("CLEAR_TABLES", 4.0) as u64, given("CLEAR_NOISE", 0.0));
-    let mind = champion(noise, given("CLEAR_SIMULATIONS", 400.0) as u32);
+    let (tables, noise) =
+        (given(option_env!("CLEAR_TABLES"), 4.0) as u64, given(option_env!("CLEAR_NOISE"), 0.0));
+    let mind = champion(noise, given(option_env!("CLEAR_SIMULATIONS"), 400.0) as u32);
     let (mut sum, mut cleared) = (Visit::default(), 0);
     for seed in 0..tables {
         let seen = visit(&mind, seed);
