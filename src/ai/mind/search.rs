@@ -102,8 +102,8 @@ struct Contender {
     successes: u32,
     legals: u32,
     value_sum: f64,
-    /// The value after a second look.
-    looked: Option<f64>,
+    /// What a second look adds to the value of the same positions.
+    correction: f64,
 }
 
 impl Contender {
@@ -112,8 +112,10 @@ impl Contender {
     }
 
     /// What it is chosen by: the first estimate has more samples, the second look sees further.
+    /// Only what the second one changes counts, so that the few errors of the arm that it saw
+    /// decide nothing.
     fn worth(&self) -> f64 {
-        self.looked.map_or_else(|| self.value(), |looked| 0.5 * (looked + self.value()))
+        (self.value() + self.correction).clamp(0.0, 1.0)
     }
 
     fn take(&mut self, outcome: &Outcome) {
@@ -221,7 +223,7 @@ impl Search<'_> {
                     successes: 0,
                     legals: 0,
                     value_sum: 0.0,
-                    looked: None,
+                    correction: 0.0,
                 }
             })
             .collect();
@@ -287,7 +289,7 @@ impl Search<'_> {
         });
         for (n, seen) in outcomes.chunks(looks).enumerate() {
             let sum: f64 = seen.iter().map(|outcome| outcome.value).sum();
-            contenders[n].looked = Some(sum / looks as f64);
+            contenders[n].correction = sum / looks as f64;
             self.simulations += seen.iter().map(|outcome| outcome.simulations).sum::<u32>();
         }
         contenders[..last].sort_by(|a, b| b.worth().total_cmp(&a.worth()));
@@ -408,7 +410,8 @@ fn diverse(contenders: Vec<Contender>, wanted: usize, ideas: &[Idea]) -> Vec<Con
     taken
 }
 
-/// Plays a shot once more as the arm makes it, and looks for the best answer to what it leaves.
+/// Plays a shot once more as the arm makes it, and looks for the best answer to what it leaves: how
+/// much more that is worth than geometry said.
 fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64) -> Outcome {
     const ANSWERS: usize = 4;
     const SPEEDS: [f64; 2] = [1.2, 1.8];
@@ -420,17 +423,17 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
     let Ok(mut played) = world.play(mind, aim, speed_m_s, call.as_ref()) else { return nothing };
     let player = world.player();
     let value = value::after(mind, player, &mut played);
-    let Some(next) = value::next(mind, &mut played) else { return Outcome { value, ..nothing } };
+    let Some(next) = value::next(mind, &mut played) else { return nothing };
     let is_played_as_it_lies =
         next.turn.options.is_empty() && next.turn.ball_in_hand == BallInHand::None;
     let Some(cue) = next.view.cue_ball.filter(|_| is_played_as_it_lies) else {
-        return Outcome { value, ..nothing };
+        return nothing;
     };
     let goal = Goal::of(&next.turn, &next.view, None);
     let answers = ideas(&next.view, cue, &goal, &mind.noise, Repertoire::Plain);
     let pots = answers.iter().filter(|answer| answer.pocket.is_some()).take(ANSWERS);
     let prospects = mind.races.prospects(next.referee().state());
-    let (mut best, mut simulations) = (value::seen_by(player, &next, value), 1);
+    let mut simulations = 1;
     let mut attack: Option<f64> = None;
     for answer in pots {
         // Of a pot that no touch makes only the miss is left.
@@ -449,12 +452,11 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
             }
         }
     }
-    if let Some(attack) = attack {
-        // What geometry says of a safety stays; of the pots the simulation knows more.
-        let contact = answers.iter().filter(|a| a.pocket.is_none()).map(|a| a.chance);
-        let contact = contact.fold(0.0, f64::max);
-        let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
-        best = attack.max(defence);
-    }
-    Outcome { value: value::seen_by(player, &next, best), simulations, ..nothing }
+    let Some(attack) = attack else { return Outcome { simulations, ..nothing } };
+    // What geometry says of a safety stays; of the pots the simulation knows more.
+    let contact = answers.iter().filter(|a| a.pocket.is_none()).map(|a| a.chance);
+    let contact = contact.fold(0.0, f64::max);
+    let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
+    let seen = value::seen_by(player, &next, attack.max(defence));
+    Outcome { value: seen - value, simulations, ..nothing }
 }
