@@ -2,9 +2,9 @@
 //!
 //! [`Player`] takes part in the game like a human's input does. The paper's player (section 5.4)
 //! sees a [`TableView2d`] and nothing else; it cannot simulate, so it cannot look ahead. The others
-//! ask a [`Mind`]: geometry proposes [ideas](fn@ideas), a simulation of the mind's own decides under the
-//! player's own noise, and what a position is worth stands for the rest of the game. A [`Thinker`]
-//! says where that is done; the answer is the same wherever.
+//! ask a [`Mind`]: geometry proposes [ideas](fn@ideas), a simulation of the mind's own decides
+//! under the player's own noise, and what a position is worth stands for the rest of the game. A
+//! [`Thinker`] says where that is done; the answer is the same wherever.
 
 mod view;
 pub use view::{SeenBall, TableView2d};
