@@ -214,7 +214,7 @@ async fn a_device_that_ran_dry_is_counted_for_the_window() {
 
 /// Whether the player was told that nothing is heard, or that it is heard again.
 async fn told(control: &ActorRef<Sound>) -> Option<bool> {
-    for _ in 0..2000 {
+    for _ in 0..20_000 {
         for health in control.ask(Work).await.unwrap().0 {
             match health {
                 Health::ActorFailed { .. } => return Some(false),
