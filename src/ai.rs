@@ -39,6 +39,7 @@ pub use mind::{
 
 mod noise;
 pub use noise::StrokeNoise;
+pub(crate) use noise::normal;
 
 mod thinker;
 pub use thinker::{ThinkInline, Thinker, Thinking};

@@ -14,7 +14,7 @@ pub use game::{
     BallInHand, BallOn, ByPlayer, Call, CallKind, Calls, Command, Group, Groups, Health,
     MenuAction, PlayerReport, PlayerState, Racked, Racking, ShotKind, Spotting, Zone,
 };
-pub use insight::{Insight, Prospect, ProspectKind, Way, WayEnd};
+pub use insight::{IdeaKind, Insight, Prospect, Way, WayEnd};
 pub use verdict::{Choice, Foul, Turn, TurnAfter, Verdict};
 
 use crate::ids::PlayerId;

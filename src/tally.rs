@@ -7,7 +7,7 @@ pub use account::Account;
 pub use interval::{Decision, SequentialTest, wilson};
 
 use crate::events::{
-    BallInHand, Call, CallKind, Command, Event, FactKind, Insight, ProspectKind, ShotKind, Source,
+    BallInHand, Call, CallKind, Command, Event, FactKind, IdeaKind, Insight, ShotKind, Source,
     Topic, Topics, Turn, TurnAfter, Verdict,
 };
 use crate::hash::StateHash;
@@ -120,7 +120,7 @@ impl Tally {
         self.shot.had_legal = others.any(|other| other.legal == Some(1.0));
         let Some(chosen) = insight.chosen() else { return };
         self.shot.intent = match (chosen.kind, chosen.pot()) {
-            (ProspectKind::Break, _) => Intent::Unknown,
+            (IdeaKind::Break, _) => Intent::Unknown,
             (_, Some((ball, pocket))) => Intent::Pot(ball, pocket),
             (_, None) => Intent::Safety,
         };
@@ -298,7 +298,7 @@ mod tests {
         check_intent(Some(safety), true, [0, 0, 1]);
     }
 
-    fn thought(kind: ProspectKind, pocket: Option<PocketId>) -> Option<Event> {
+    fn thought(kind: IdeaKind, pocket: Option<PocketId>) -> Option<Event> {
         let chosen = Prospect {
             kind,
             ball: Some(BallId(3)),
@@ -323,15 +323,15 @@ mod tests {
 
     #[test]
     fn where_nothing_is_called_the_chosen_thought_is_the_intent() {
-        check_intent(thought(ProspectKind::Bank, Some(PocketId::Fl)), true, [1, 1, 0]);
-        check_intent(thought(ProspectKind::Contact, None), true, [0, 0, 1]);
-        check_intent(thought(ProspectKind::Break, None), true, [0, 0, 0]);
+        check_intent(thought(IdeaKind::Bank, Some(PocketId::Fl)), true, [1, 1, 0]);
+        check_intent(thought(IdeaKind::Contact, None), true, [0, 0, 1]);
+        check_intent(thought(IdeaKind::Break, None), true, [0, 0, 0]);
     }
 
     #[test]
     fn a_foul_is_avoidable_if_another_shot_was_never_one() {
         let foul = || verdict(false, TurnAfter::Pass, None);
-        let tally = told(Turn::default(), thought(ProspectKind::Pot, None), &[], foul());
+        let tally = told(Turn::default(), thought(IdeaKind::Pot, None), &[], foul());
         assert_eq!((tally.fouls[0], tally.avoidable[0]), (1, 1));
         let tally = told(Turn::default(), call(3, PocketId::Fl), &[], foul());
         assert_eq!((tally.fouls[0], tally.avoidable[0]), (1, 0));

@@ -13,6 +13,7 @@ mod kick;
 mod mouth;
 mod opening;
 mod pot;
+mod second;
 mod spots;
 mod trace;
 mod way;
@@ -22,32 +23,12 @@ pub use spots::spots;
 use super::noise::StrokeNoise;
 use super::plan::{Goal, Line, LineEnd};
 use super::view::TableView2d;
+pub use crate::events::IdeaKind;
+
 use crate::events::ShotKind;
 use crate::ids::{BallId, PocketId};
 use glam::DVec2;
 use smallvec::SmallVec;
-
-/// What sort of shot an idea is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum IdeaKind {
-    /// A ball straight into a pocket.
-    Pot,
-    /// A ball into a pocket by another one.
-    Combination,
-    /// A ball into a pocket by one cushion.
-    Bank,
-    /// The cue ball by one cushion to a ball.
-    Kick,
-    /// A ball into a pocket by the cue ball, or another ball, that comes off a first one; in carom
-    /// the cue ball to both others.
-    Carom,
-    /// Meet a ball, full or thin, to pocket nothing.
-    Contact,
-    /// Open the rack.
-    Break,
-    /// Nothing can be reached: the least bad.
-    Desperate,
-}
 
 /// A shot that might be worth a simulation.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,9 +1,8 @@
 //! What a player tells whoever wants to see it think (paper, figure 5.2).
 
-use super::ideas::IdeaKind;
 use super::mind::{Considered, Thoughts};
 use super::plan::{Line, LineEnd, Plan, PlanKind};
-use crate::events::{Insight, Prospect, ProspectKind, Way, WayEnd};
+use crate::events::{IdeaKind, Insight, Prospect, Way, WayEnd};
 use crate::ids::PlayerId;
 use glam::DVec2;
 
@@ -12,11 +11,11 @@ use glam::DVec2;
 pub fn insight_of_plan(player: PlayerId, plan: &Plan) -> Insight {
     let chosen = Prospect {
         kind: match plan.kind {
-            PlanKind::Pot => ProspectKind::Pot,
-            PlanKind::Contact => ProspectKind::Contact,
-            PlanKind::Kick => ProspectKind::Kick,
-            PlanKind::Desperate => ProspectKind::Desperate,
-            PlanKind::Break => ProspectKind::Break,
+            PlanKind::Pot => IdeaKind::Pot,
+            PlanKind::Contact => IdeaKind::Contact,
+            PlanKind::Kick => IdeaKind::Kick,
+            PlanKind::Desperate => IdeaKind::Desperate,
+            PlanKind::Break => IdeaKind::Break,
         },
         ball: plan.target,
         pocket: plan.pocket,
@@ -54,16 +53,7 @@ pub fn insight_of_thoughts(
 fn prospect(considered: &Considered) -> Prospect {
     let idea = &considered.idea;
     Prospect {
-        kind: match idea.kind {
-            IdeaKind::Pot => ProspectKind::Pot,
-            IdeaKind::Combination => ProspectKind::Combination,
-            IdeaKind::Bank => ProspectKind::Bank,
-            IdeaKind::Kick => ProspectKind::Kick,
-            IdeaKind::Carom => ProspectKind::Carom,
-            IdeaKind::Contact => ProspectKind::Contact,
-            IdeaKind::Break => ProspectKind::Break,
-            IdeaKind::Desperate => ProspectKind::Desperate,
-        },
+        kind: idea.kind,
         ball: idea.ball.or(idea.first),
         pocket: idea.pocket,
         ghost: idea.ghost,

@@ -18,18 +18,17 @@ pub use throws::{THROW_CELLS, pot_error_deg, throw_cell, throw_table};
 
 use super::AimLearner;
 use super::geometry::turned;
+use super::noise::normal;
+use super::plan::COMMANDED_LIMIT_RAD;
 use super::speed::{self, BALL_PER_TIP_SPEED};
 use crate::ball::POOL_RADIUS_M;
 use crate::physics::{PhysicsError, Simulation};
-use core::f64::consts::TAU;
 use core::ops::Range;
 use glam::DVec2;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 const DEGREE: f64 = core::f64::consts::PI / 180.0;
-/// No cut is commanded thinner [rad]: a right angle is a miss.
-const COMMANDED_LIMIT_RAD: f64 = 85.0 * DEGREE;
 /// How far a ball in the way lies off the wanted direction [rad]: it turns the object ball away by
 /// about as much as is left to a right angle.
 const OBSTACLE_RAD: Range<f64> = 20.0 * DEGREE..65.0 * DEGREE;
@@ -151,7 +150,7 @@ impl Lesson {
             Strength::BallSpeed(band) => random.random_range(band.clone()) / BALL_PER_TIP_SPEED,
             Strength::AsPlayed => speed::pot_strength(to_ball_m, cut_rad, to_pocket_m, random),
         };
-        let misreading_deg = self.observation_error_deg * gauss(random);
+        let misreading_deg = self.observation_error_deg * normal(random);
         let obstructed = random.random::<f64>() < self.outliers;
         let off_rad = random.random_range(OBSTACLE_RAD);
         let off_rad = if random.random_bool(0.5) { off_rad } else { -off_rad };
@@ -181,10 +180,4 @@ impl Lesson {
             hit: (!obstructed).then(|| falls.unwrap_or(false)),
         })
     }
-}
-
-/// A number of the normal distribution (Box and Muller 1958).
-fn gauss(random: &mut Pcg64Mcg) -> f64 {
-    let (u, v): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
-    (-2.0 * libm::log(u)).sqrt() * libm::cos(TAU * v)
 }

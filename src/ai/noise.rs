@@ -73,7 +73,7 @@ impl StrokeNoise {
 }
 
 /// A number from the standard normal distribution (Box and Muller 1958).
-pub(super) fn normal(rng: &mut impl Rng) -> f64 {
+pub(crate) fn normal(rng: &mut impl Rng) -> f64 {
     let (u, angle): (f64, f64) = (rng.random(), rng.random());
     // 1 − u lies in (0, 1], so that the logarithm exists.
     (-2.0 * libm::log(1.0 - u)).sqrt() * libm::cos(std::f64::consts::TAU * angle)

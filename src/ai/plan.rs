@@ -19,7 +19,7 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Largest cut that is played [rad].
 pub const CUT_LIMIT_RAD: f64 = 70.0 * DEGREE;
 /// Largest commanded cut, the throw's compensation included [rad]. A right angle is a miss.
-const COMMANDED_LIMIT_RAD: f64 = 85.0 * DEGREE;
+pub(super) const COMMANDED_LIMIT_RAD: f64 = 85.0 * DEGREE;
 /// Largest angle between a ball's way and a corner pocket's heading [rad]: along the rail is 45°.
 const ENTRY_LIMIT_CORNER_RAD: f64 = 52.0 * DEGREE;
 /// The same for a side pocket, whose far jaw turns slanting balls away [rad].

@@ -1,5 +1,6 @@
 //! What the paper's player sees: positions on the bed, from above.
 
+use crate::ball::{BallPlace, BallState};
 use crate::ids::BallId;
 use crate::physics::Snapshot;
 use crate::table::{Bed, Pocket};
@@ -44,16 +45,22 @@ impl TableView2d {
         pockets: &[Pocket],
         ball_radius_m: f64,
     ) -> Self {
+        Self::of_balls(&table.balls, cue_ball, bed, pockets, ball_radius_m)
+    }
+
+    /// The same of balls in ascending order of id, of which some may not lie on the table.
+    pub(super) fn of_balls(
+        balls: &[BallState],
+        cue_ball: BallId,
+        bed: &Bed,
+        pockets: &[Pocket],
+        ball_radius_m: f64,
+    ) -> Self {
+        let lying = balls.iter().filter(|ball| ball.place == BallPlace::OnTable);
+        let seen = lying.map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() });
         TableView2d {
-            cue_ball: table
-                .on_table()
-                .find(|ball| ball.id == cue_ball)
-                .map(|ball| ball.position.truncate()),
-            balls: table
-                .on_table()
-                .filter(|ball| ball.id != cue_ball)
-                .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
-                .collect(),
+            cue_ball: seen.clone().find(|ball| ball.id == cue_ball).map(|ball| ball.position),
+            balls: seen.filter(|ball| ball.id != cue_ball).collect(),
             ball_radius_m,
             bed: *bed,
             pockets: pockets.to_vec(),

@@ -52,24 +52,25 @@ pub enum WayEnd {
 }
 
 /// What a shot is meant to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum ProspectKind {
-    /// A ball into a pocket, straight.
+pub enum IdeaKind {
+    /// A ball straight into a pocket.
     Pot,
-    /// A ball into a pocket, by way of another ball.
+    /// A ball into a pocket by another one.
     Combination,
-    /// A ball into a pocket, by way of a cushion.
+    /// A ball into a pocket by one cushion.
     Bank,
-    /// The cue ball reaches its ball by way of a cushion.
+    /// The cue ball by a cushion to a ball.
     Kick,
-    /// The cue ball glances off a ball and pots another.
+    /// A ball into a pocket by the cue ball that comes off a first one; in carom the cue ball to
+    /// both others.
     Carom,
-    /// To meet a legal ball, and pocket none.
+    /// Meet a ball, full or thin, to pocket nothing.
     Contact,
-    /// Opens the rack.
+    /// Open the rack.
     Break,
-    /// Nothing better was found.
+    /// Nothing can be reached: the least bad.
     Desperate,
 }
 
@@ -77,7 +78,7 @@ pub enum ProspectKind {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Prospect {
     /// What sort of shot.
-    pub kind: ProspectKind,
+    pub kind: IdeaKind,
     /// The ball that shall fall, or that shall be met if none shall fall.
     pub ball: Option<BallId>,
     /// The pocket that the ball shall fall into; none if none shall fall.

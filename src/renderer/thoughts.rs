@@ -6,7 +6,7 @@
 
 use super::draw_list::{DrawList, GhostBall, Label, Line, Radii};
 use super::words::Words;
-use crate::events::{Insight, Prospect, ProspectKind, Way, WayEnd};
+use crate::events::{IdeaKind, Insight, Prospect, Way, WayEnd};
 use crate::ids::{BallId, PocketId};
 use crate::rules::Texts;
 use glam::DVec2;
@@ -231,14 +231,14 @@ impl ThoughtsPanel {
 /// A shot in words, such as "3: at the foot, left (bank)".
 fn describe(prospect: &Prospect, texts: &Texts, words: &Words) -> String {
     let kind = match prospect.kind {
-        ProspectKind::Pot => None,
-        ProspectKind::Combination => Some("thoughts_combination"),
-        ProspectKind::Bank => Some("thoughts_bank"),
-        ProspectKind::Kick => Some("thoughts_kick"),
-        ProspectKind::Carom => Some("thoughts_carom"),
-        ProspectKind::Contact => Some("thoughts_contact"),
-        ProspectKind::Break => Some("thoughts_break"),
-        ProspectKind::Desperate => Some("thoughts_desperate"),
+        IdeaKind::Pot => None,
+        IdeaKind::Combination => Some("thoughts_combination"),
+        IdeaKind::Bank => Some("thoughts_bank"),
+        IdeaKind::Kick => Some("thoughts_kick"),
+        IdeaKind::Carom => Some("thoughts_carom"),
+        IdeaKind::Contact => Some("thoughts_contact"),
+        IdeaKind::Break => Some("thoughts_break"),
+        IdeaKind::Desperate => Some("thoughts_desperate"),
     };
     let kind = kind.map(|key| words.get(key));
     let aim = match (prospect.ball, prospect.pocket) {

@@ -6,7 +6,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// Most shots that a player may simulate for a decision.
-const SIMULATIONS_MAX: u32 = 1_000_000;
+pub(super) const SIMULATIONS_MAX: u32 = 1_000_000;
 
 /// Who plays in place of a scene's player, and how; what is none stays as the scene says.
 ///

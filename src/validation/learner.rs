@@ -5,12 +5,12 @@ use super::impacts::clamp;
 use super::observed::{Observations, degrees};
 use super::setup::Setup;
 use super::shapes::Topspin;
-use crate::ai::AimLearner;
+use crate::ai::{AimLearner, normal};
 use crate::ball::Ball;
 use crate::ids::BallId;
 use crate::physics::Contact;
 use crate::physics::laws::{Mover, ball_ball};
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::PI;
 use core::ops::Range;
 use glam::DVec3;
 use rand::{RngExt, SeedableRng};
@@ -123,7 +123,7 @@ impl Game {
             // The side of the cut drops out of the error.
             let commanded = learner.command(cut, self.limit_deg);
             let mut error = cut - self.object_ball_deg(commanded, speed, late);
-            error += self.noise_deg * gauss(&mut random);
+            error += self.noise_deg * normal(&mut random);
             let wild = random.random::<f64>() < self.outliers;
             if wild {
                 let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
@@ -164,10 +164,4 @@ impl Game {
         }
         degrees(libm::atan2(object.velocity.y, object.velocity.x))
     }
-}
-
-/// A number of the normal distribution (Box and Muller).
-fn gauss(random: &mut Pcg64Mcg) -> f64 {
-    let (u, v): (f64, f64) = (1.0 - random.random::<f64>(), random.random());
-    (-2.0 * libm::log(u)).sqrt() * libm::cos(TAU * v)
 }

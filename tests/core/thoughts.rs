@@ -3,7 +3,7 @@
 use glam::DVec2;
 use hapticbillard::cast::Cast;
 use hapticbillard::events::{
-    Event, Insight, Prospect, ProspectKind, Source, Topic, Topics, Way, WayEnd,
+    Event, IdeaKind, Insight, Prospect, Source, Topic, Topics, Way, WayEnd,
 };
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
@@ -26,7 +26,7 @@ fn way(is_free: bool, is_chosen: bool) -> Way {
 
 fn pot(pocket: PocketId, chance: f64, is_chosen: bool) -> Prospect {
     Prospect {
-        kind: ProspectKind::Pot,
+        kind: IdeaKind::Pot,
         ball: Some(BallId(3)),
         pocket: Some(pocket),
         ghost: DVec2::new(-0.05, 0.0),
@@ -81,7 +81,7 @@ fn shots_that_do_the_same_share_a_label_and_a_row() {
         pot(PocketId::Fl, 0.5, false),
         pot(PocketId::Fl, 0.4, true),
         pot(PocketId::Fr, 0.7, false),
-        Prospect { pocket: None, kind: ProspectKind::Contact, ..pot(PocketId::Fl, 0.9, false) },
+        Prospect { pocket: None, kind: IdeaKind::Contact, ..pot(PocketId::Fl, 0.9, false) },
     ];
     let insight = insight(vec![], prospects);
     let labels: Vec<String> = drawn(&insight).labels.into_iter().map(|label| label.text).collect();

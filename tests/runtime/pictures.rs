@@ -1,7 +1,7 @@
 //! Pictures without a window, at small sizes.
 
 use glam::{DVec2, DVec3};
-use hapticbillard::events::{FactSet, Insight, Prospect, ProspectKind, Way, WayEnd};
+use hapticbillard::events::{FactSet, IdeaKind, Insight, Prospect, Way, WayEnd};
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::{CameraPose, HumanView};
 use hapticbillard::physics::Snapshot;
@@ -123,7 +123,7 @@ fn way(from: DVec2, to: DVec2, leads_to: WayEnd, is_free: bool) -> Way {
 fn insight() -> Insight {
     let (cue_ball, pocket) = (DVec2::new(-0.6, -0.2), DVec2::new(1.2, 0.57));
     let shot = |ball: u16, at: DVec2, chance: f64, is_chosen: bool| Prospect {
-        kind: ProspectKind::Pot,
+        kind: IdeaKind::Pot,
         ball: Some(BallId(ball)),
         pocket: Some(PocketId::Fl),
         ghost: at - (pocket - at).normalize() * 0.057,

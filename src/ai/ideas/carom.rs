@@ -1,15 +1,15 @@
 //! The cue ball off a first ball to another.
 
 use super::chance::{CAROM_RAD, gain};
-use super::mouth::{Entry, entries};
 use super::pot::{chance, meeting};
+use super::second::{Second, by_another};
 use super::trace;
 use super::way::window;
 use super::{CHANCE_LEAST, Idea, IdeaKind, Position, line};
 use crate::ai::geometry::signed_angle;
 use crate::ai::plan::LineEnd;
 use crate::ai::speed::{BALL_PER_TIP_SPEED, before_meeting, launch_speed, launch_to_pocket};
-use crate::ids::{BallId, PocketId};
+use crate::ids::BallId;
 use glam::DVec2;
 use smallvec::smallvec;
 
@@ -22,31 +22,12 @@ pub(super) fn caroms(position: &Position<'_>, found: &mut Vec<Idea>) {
         trace::both_balls(position, found);
         return;
     }
-    for (ball, at) in position.lying(&position.goal.own) {
-        for pocket in &position.view.pockets {
-            for entry in entries(position, at, pocket, &[ball]) {
-                for (first, first_at) in position.lying(&position.goal.legal) {
-                    if first != ball {
-                        let second = Second { ball, at, pocket: pocket.id, entry };
-                        let sides = [1.0, -1.0];
-                        found.extend(sides.into_iter().filter_map(|side| {
-                            carom(position, first, first_at, &second, side)
-                                .filter(|idea| idea.chance >= CHANCE_LEAST)
-                        }));
-                    }
-                }
-            }
-        }
+    for (second, first, first_at) in by_another(position) {
+        found.extend([1.0, -1.0].into_iter().filter_map(|side| {
+            carom(position, first, first_at, &second, side)
+                .filter(|idea| idea.chance >= CHANCE_LEAST)
+        }));
     }
-}
-
-/// The ball that shall fall.
-#[derive(Debug, Clone, Copy)]
-struct Second {
-    ball: BallId,
-    at: DVec2,
-    pocket: PocketId,
-    entry: Entry,
 }
 
 /// A sliding cue ball leaves along the tangent: its ghost at the first ball is where a tangent from

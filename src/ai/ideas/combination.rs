@@ -1,14 +1,14 @@
 //! A ball into a pocket by another one.
 
 use super::chance::{FROZEN_RAD, THROW_RAD};
-use super::mouth::{Entry, entries};
 use super::pot::{chance, meeting};
+use super::second::{Second, by_another};
 use super::way::window;
 use super::{CHANCE_LEAST, Idea, IdeaKind, Position, line};
 use crate::ai::geometry::{signed_angle, turned};
 use crate::ai::plan::LineEnd;
 use crate::ai::speed::{BALL_PER_TIP_SPEED, before_meeting, launch_speed, launch_to_pocket};
-use crate::ids::{BallId, PocketId};
+use crate::ids::BallId;
 use glam::DVec2;
 use smallvec::smallvec;
 
@@ -22,33 +22,14 @@ const TOUCHING_M: f64 = 0.0015;
 const FROZEN_WAYS_RAD: [f64; 5] =
     [0.0, 20.0 * DEGREE, -20.0 * DEGREE, 40.0 * DEGREE, -40.0 * DEGREE];
 
-/// Where a ball shall go, and into what.
-#[derive(Debug, Clone, Copy)]
-struct Second {
-    ball: BallId,
-    at: DVec2,
-    pocket: PocketId,
-    entry: Entry,
-}
-
 /// Own balls by any legal ball.
 pub(super) fn combinations(position: &Position<'_>, found: &mut Vec<Idea>) {
-    for (ball, at) in position.lying(&position.goal.own) {
-        for pocket in &position.view.pockets {
-            for entry in entries(position, at, pocket, &[ball]) {
-                let second = Second { ball, at, pocket: pocket.id, entry };
-                for (first, first_at) in position.lying(&position.goal.legal) {
-                    if first == ball {
-                        continue;
-                    }
-                    let apart = at.distance(first_at) - 2.0 * position.radius();
-                    if apart < TOUCHING_M {
-                        frozen(position, first, first_at, &second, found);
-                    } else {
-                        found.extend(combination(position, first, first_at, &second));
-                    }
-                }
-            }
+    for (second, first, first_at) in by_another(position) {
+        let apart = second.at.distance(first_at) - 2.0 * position.radius();
+        if apart < TOUCHING_M {
+            frozen(position, first, first_at, &second, found);
+        } else {
+            found.extend(combination(position, first, first_at, &second));
         }
     }
     found.retain(|idea| idea.kind != IdeaKind::Combination || idea.chance >= CHANCE_LEAST);

@@ -1,5 +1,6 @@
 //! Where to aim so that a ball goes where it shall: squirt, curve and throw found by simulation.
 
+use super::race::Prospects;
 use super::world::World;
 use super::{Mind, Outcome, trial};
 use crate::ai::geometry::{signed_angle, turned as rotated};
@@ -110,6 +111,32 @@ pub fn best(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Outcome {
         return Outcome { simulations: SCAN, ..scanned };
     }
     if is_worth_a_scan(idea) { scanned(aim, exactly) } else { exactly(aim) }
+}
+
+/// The best an idea is worth with any of these touches, where one works, and the shots that were
+/// simulated for it. Speeds are over the least one, heights in ball radii.
+pub fn worth(
+    mind: &Mind,
+    world: &World,
+    idea: &Idea,
+    speeds: &[f64],
+    heights: &[f64],
+    prospects: &Prospects,
+) -> (Option<f64>, u32) {
+    let (mut best, mut simulations) = (None, 0);
+    for factor in speeds {
+        for height in heights {
+            let speed_m_s = factor * idea.speed_least_m_s;
+            let touch = Touch { speed_m_s, side: 0.0, height: *height };
+            let outcome = self::best(mind, world, idea, touch);
+            simulations += outcome.simulations;
+            if outcome.success {
+                let worth = prospects.of_idea(idea, outcome.value);
+                best = Some(best.map_or(worth, |known: f64| known.max(worth)));
+            }
+        }
+    }
+    (best, simulations)
 }
 
 /// Where geometry alone is too rough.

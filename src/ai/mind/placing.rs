@@ -72,7 +72,7 @@ fn best_shot(mind: &Mind, world: &World, zone: Zone, seed: u64) -> Outcome {
     let mut best = Outcome { value: 0.5 * value, ..Outcome::default() };
     let Some(cue) = world.view.cue_ball else { return best };
     let goal = Goal::of(&world.turn, &world.view, Some(zone));
-    let miss = mind.races.prospects(world.referee().state()).miss;
+    let prospects = mind.races.prospects(world.referee().state());
     let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
     let mut simulations = 0;
     // Whoever has the ball in hand pots; only without any pot it matters what else there is.
@@ -82,28 +82,12 @@ fn best_shot(mind: &Mind, world: &World, zone: Zone, seed: u64) -> Outcome {
         if idea.kind == IdeaKind::Break {
             let outcome = broken(mind, world, idea, seed);
             simulations += outcome.simulations;
-            if best.value < outcome.value {
-                best = outcome;
-            }
+            best.value = best.value.max(outcome.value);
             continue;
         }
-        for factor in SPEEDS {
-            for height in HEIGHTS {
-                let speed_m_s = factor * idea.speed_least_m_s;
-                let outcome = aim::best(mind, world, idea, Touch { speed_m_s, side: 0.0, height });
-                simulations += outcome.simulations;
-                if !outcome.success {
-                    continue;
-                }
-                let worth = match idea.pocket {
-                    Some(_) => idea.chance * outcome.value + (1.0 - idea.chance) * miss,
-                    None => outcome.value,
-                };
-                if best.value < worth {
-                    best = Outcome { value: worth, ..outcome };
-                }
-            }
-        }
+        let (worth, tried) = aim::worth(mind, world, idea, &SPEEDS, &HEIGHTS, &prospects);
+        simulations += tried;
+        best.value = worth.map_or(best.value, |worth| best.value.max(worth));
     }
     Outcome { simulations, ..best }
 }

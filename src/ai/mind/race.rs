@@ -6,6 +6,7 @@
 //! `w(n) = q w(n − 1) + (1 − q)(1 − w(n))`. It is what is left of a game tree when positions are
 //! forgotten; the position decides about the next ball alone.
 
+use crate::ai::ideas::Idea;
 use crate::ai::noise::StrokeNoise;
 use crate::events::{BallOn, Group, Groups};
 use crate::ids::{BallId, GameKind};
@@ -48,6 +49,26 @@ pub struct Prospects {
     pub safe: f64,
     /// A foul.
     pub foul: f64,
+}
+
+impl Prospects {
+    /// What a pot of this chance is worth.
+    pub fn of_pot(&self, chance: f64) -> f64 {
+        chance * self.pot + (1.0 - chance) * self.miss
+    }
+
+    /// What a safety is worth that meets its ball with this chance.
+    pub fn of_contact(&self, chance: f64) -> f64 {
+        chance * self.safe + (1.0 - chance) * self.foul
+    }
+
+    /// What an idea is worth that does what it is meant to and then leaves a position of `value`.
+    pub fn of_idea(&self, idea: &Idea, value: f64) -> f64 {
+        match idea.pocket {
+            Some(_) => idea.chance * value + (1.0 - idea.chance) * self.miss,
+            None => value,
+        }
+    }
 }
 
 impl Races {

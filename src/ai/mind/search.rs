@@ -202,18 +202,17 @@ impl Search<'_> {
             let (n, touch) = tries[job];
             aim::best(mind, world, &ideas[n], touch)
         });
-        let miss = mind.races.prospects(world.referee().state()).miss;
+        let prospects = mind.races.prospects(world.referee().state());
         let mut contenders: Vec<Contender> = tries
             .iter()
             .zip(&outcomes)
             .map(|((n, _), outcome)| {
                 self.simulations += outcome.simulations;
                 let idea = &self.ideas[*n];
-                let promise = match (outcome.success, idea.pocket.is_some()) {
-                    (true, true) => idea.chance * outcome.value + (1.0 - idea.chance) * miss,
-                    (true, false) => outcome.value,
+                let promise = match outcome.success {
+                    true => prospects.of_idea(idea, outcome.value),
                     // It may still be the least bad.
-                    (false, _) => 0.5 * outcome.value,
+                    false => 0.5 * outcome.value,
                 };
                 let trial = Trial { idea: *n, aim: outcome.aim, speed_m_s: outcome.speed_m_s };
                 Contender {
@@ -241,8 +240,7 @@ impl Search<'_> {
             target = 1;
         }
         while 0 < left && !self.workers.is_cancelled() {
-            let left_over = mind_budget(self.mind, self.simulations) / left as u32;
-            target = target.min(done + left_over);
+            target = target.min(done + self.left_over() / left as u32);
             let rounds = (target - done) as usize;
             if rounds == 0 {
                 break;
@@ -273,7 +271,7 @@ impl Search<'_> {
         const LAST: usize = 4;
         /// About what a second look costs.
         const LOOK: u32 = 60;
-        let affordable = mind_budget(self.mind, self.simulations) / (LOOK * LAST as u32);
+        let affordable = self.left_over() / (LOOK * LAST as u32);
         let looks = breadth.second_look.min(affordable) as usize;
         if looks == 0 || self.workers.is_cancelled() {
             return;
@@ -293,6 +291,11 @@ impl Search<'_> {
             self.simulations += seen.iter().map(|outcome| outcome.simulations).sum::<u32>();
         }
         contenders[..last].sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+    }
+
+    /// Simulations that are left.
+    fn left_over(&self) -> u32 {
+        self.mind.simulations.saturating_sub(self.simulations)
     }
 
     fn conclude(self, contenders: Vec<Contender>) -> Option<Deliberation> {
@@ -330,11 +333,6 @@ impl Search<'_> {
             simulations: self.simulations,
         })
     }
-}
-
-/// Simulations that are left.
-fn mind_budget(mind: &Mind, used: u32) -> u32 {
-    mind.simulations.saturating_sub(used)
 }
 
 /// The best pots, other ways to pocket a ball, and others, in this order.
@@ -421,8 +419,6 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
     let call = trial::call(idea, world.turn.calls);
     let nothing = Outcome { simulations: 1, ..Outcome::default() };
     let Ok(mut played) = world.play(mind, aim, speed_m_s, call.as_ref()) else { return nothing };
-    let player = world.player();
-    let value = value::after(mind, player, &mut played);
     let Some(next) = value::next(mind, &mut played) else { return nothing };
     let is_played_as_it_lies =
         next.turn.options.is_empty() && next.turn.ball_in_hand == BallInHand::None;
@@ -436,27 +432,18 @@ fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64
     let mut simulations = 1;
     let mut attack: Option<f64> = None;
     for answer in pots {
+        let (worth, tried) = aim::worth(mind, &next, answer, &SPEEDS, &HEIGHTS, &prospects);
+        simulations += tried;
         // Of a pot that no touch makes only the miss is left.
-        attack = Some(attack.unwrap_or(prospects.miss));
-        for factor in SPEEDS {
-            for height in HEIGHTS {
-                let speed_m_s = factor * answer.speed_least_m_s;
-                let outcome =
-                    aim::best(mind, &next, answer, Touch { speed_m_s, side: 0.0, height });
-                simulations += outcome.simulations;
-                if outcome.success {
-                    let worth =
-                        answer.chance * outcome.value + (1.0 - answer.chance) * prospects.miss;
-                    attack = Some(attack.map_or(worth, |known| known.max(worth)));
-                }
-            }
-        }
+        let best = attack.unwrap_or(prospects.miss);
+        attack = Some(worth.map_or(best, |worth| best.max(worth)));
     }
     let Some(attack) = attack else { return Outcome { simulations, ..nothing } };
     // What geometry says of a safety stays; of the pots the simulation knows more.
     let contact = answers.iter().filter(|a| a.pocket.is_none()).map(|a| a.chance);
     let contact = contact.fold(0.0, f64::max);
-    let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
-    let seen = value::seen_by(player, &next, attack.max(defence));
-    Outcome { value: seen - value, simulations, ..nothing }
+    let seen = attack.max(prospects.of_contact(contact));
+    let (player, known) = (world.player(), value::position(mind, &next, None));
+    let value = value::seen_by(player, &next, seen) - value::seen_by(player, &next, known);
+    Outcome { value, simulations, ..nothing }
 }

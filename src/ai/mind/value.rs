@@ -45,20 +45,19 @@ pub fn position(mind: &Mind, world: &World, played_from: Option<Zone>) -> f64 {
         return choosing::best(mind, world).map_or(0.5, |(_, value)| value);
     }
     let prospects = mind.races.prospects(world.referee().state());
-    let in_hand = |chance: f64| chance * prospects.pot + (1.0 - chance) * prospects.miss;
     if world.turn.shot == ShotKind::Break {
-        return in_hand(BREAK * mind.races.pot);
+        return prospects.of_pot(BREAK * mind.races.pot);
     }
     // A cue ball that lies may still be taken in hand, unless this very player put it there.
     let is_in_hand = world.turn.ball_in_hand != BallInHand::None && played_from.is_none();
     let Some(cue) = world.view.cue_ball.filter(|_| !is_in_hand) else {
-        return in_hand(match world.turn.ball_in_hand {
+        return prospects.of_pot(match world.turn.ball_in_hand {
             BallInHand::Kitchen | BallInHand::D => IN_KITCHEN * mind.races.pot,
             BallInHand::Anywhere | BallInHand::None => IN_HAND.min(1.05 * mind.races.pot),
         });
     };
     if matches!(mind.game, GameKind::FreeCarom | GameKind::ThreeCushion) {
-        return in_hand(carom(mind, world));
+        return prospects.of_pot(carom(mind, world));
     }
     let goal = Goal::of(&world.turn, &world.view, played_from);
     let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
@@ -72,9 +71,7 @@ fn of_ideas(ideas: &[Idea], prospects: &Prospects) -> f64 {
     };
     let pot = best(&|idea| idea.pocket.is_some());
     let contact = best(&|idea| idea.kind != IdeaKind::Desperate);
-    let attack = pot * prospects.pot + (1.0 - pot) * prospects.miss;
-    let defence = contact * prospects.safe + (1.0 - contact) * prospects.foul;
-    attack.max(defence)
+    prospects.of_pot(pot).max(prospects.of_contact(contact))
 }
 
 /// Chance of a carom: the closer the balls lie together the better, where a gathered lie lasts.

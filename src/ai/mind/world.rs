@@ -1,14 +1,14 @@
 //! A table of one's own, to try shots on.
 
 use super::Mind;
-use crate::ai::view::{SeenBall, TableView2d};
+use crate::ai::view::TableView2d;
 use crate::ball::{BallPlace, BallState};
 use crate::cue::Aim;
 use crate::events::{
     Call, Command, Event, Fact, FactKind, FactSet, Source, Topic, Turn, TurnAfter, Verdict, Zone,
 };
-use crate::ids::{BallId, PlayerId};
-use crate::physics::{PhysicsError, Simulation, Snapshot, Strike};
+use crate::ids::{BallId, PlayerId, PocketId};
+use crate::physics::{PhysicsError, Simulation, Strike};
 use crate::rules::Referee;
 use crate::units::Seconds;
 use glam::{DQuat, DVec2, DVec3};
@@ -62,29 +62,11 @@ impl World {
         turn: Arc<Turn>,
     ) -> Result<Self, PhysicsError> {
         let start = mind.simulation.with_balls(mind.balls_at(lies))?;
-        Ok(Self::of(mind, start, lies, referee, turn))
-    }
-
-    fn of(
-        mind: &Mind,
-        start: Simulation,
-        lies: &[BallState],
-        referee: Referee,
-        turn: Arc<Turn>,
-    ) -> Self {
-        let lying = lies.iter().filter(|ball| ball.place == BallPlace::OnTable);
-        let cue_ball = lying.clone().find(|ball| ball.id == turn.cue_ball).map(|b| b.position);
-        let balls = lying.filter(|ball| ball.id != turn.cue_ball);
-        let view = TableView2d {
-            cue_ball: cue_ball.map(DVec3::truncate),
-            balls: balls
-                .map(|ball| SeenBall { id: ball.id, position: ball.position.truncate() })
-                .collect(),
-            ball_radius_m: mind.ball_radius_m,
-            bed: mind.bed,
-            pockets: mind.table.pockets.clone(),
-        };
-        World { start, referee, view, cue_ball, turn }
+        let lying = lies.iter().find(|ball| ball.id == turn.cue_ball);
+        let cue_ball = lying.filter(|ball| ball.place == BallPlace::OnTable).map(|b| b.position);
+        let (bed, pockets) = (&mind.bed, &mind.table.pockets);
+        let view = TableView2d::of_balls(lies, turn.cue_ball, bed, pockets, mind.ball_radius_m);
+        Ok(World { start, referee, view, cue_ball, turn })
     }
 
     /// The same with the cue ball put down in a zone [m].
@@ -115,16 +97,8 @@ impl World {
         turn: Arc<Turn>,
     ) -> Result<Self, PhysicsError> {
         let mut simulation = self.start.clone();
-        let now = simulation.now_s();
-        for command in commands {
-            simulation.apply(now, command)?;
-        }
-        if !commands.is_empty() {
-            simulation.advance(now + SPOTTING_S, FactSet::NONE, &mut Vec::new())?;
-        }
-        let balls = simulation.snapshot(simulation.now_s()).balls;
-        let lies: Vec<_> = balls.into_iter().map(at_rest).collect();
-        Self::new(mind, &lies, referee, turn)
+        lay(&mut simulation, commands)?;
+        Self::new(mind, &lies_of(&simulation), referee, turn)
     }
 
     /// Who shoots.
@@ -223,21 +197,13 @@ impl World {
 impl Played {
     /// The balls after the shot, with those that the rules laid down.
     pub fn lies(&mut self) -> Vec<BallState> {
-        let laying = std::mem::take(&mut self.laying);
-        if !laying.is_empty() {
-            let now = self.end.now_s();
-            // A ball that finds no place stays off the table; the next turn says what follows.
-            for command in &laying {
-                let _ = self.end.apply(now, command);
-            }
-            let _ = self.end.advance(now + SPOTTING_S, FactSet::NONE, &mut Vec::new());
-        }
-        let Snapshot { balls, .. } = self.end.snapshot(self.end.now_s());
-        balls.into_iter().map(at_rest).collect()
+        // What cannot be laid down stays off the table; the next turn says what follows.
+        let _ = lay(&mut self.end, &std::mem::take(&mut self.laying));
+        lies_of(&self.end)
     }
 
     /// Whether a ball fell, and where if that matters.
-    pub fn has_pocketed(&self, ball: BallId, pocket: Option<crate::ids::PocketId>) -> bool {
+    pub fn has_pocketed(&self, ball: BallId, pocket: Option<PocketId>) -> bool {
         self.facts.iter().any(|fact| match fact.kind {
             FactKind::BallPocketed { ball: fell, pocket: into, .. } => {
                 fell == ball && pocket.is_none_or(|wanted| wanted == into)
@@ -245,6 +211,23 @@ impl Played {
             _ => false,
         })
     }
+}
+
+/// Has commands of the rules carried out: balls on their spots, a rack.
+fn lay(simulation: &mut Simulation, commands: &[Command]) -> Result<(), PhysicsError> {
+    let now = simulation.now_s();
+    for command in commands {
+        simulation.apply(now, command)?;
+    }
+    if !commands.is_empty() {
+        simulation.advance(now + SPOTTING_S, FactSet::NONE, &mut Vec::new())?;
+    }
+    Ok(())
+}
+
+/// Where the balls lie now.
+fn lies_of(simulation: &Simulation) -> Vec<BallState> {
+    simulation.snapshot(simulation.now_s()).balls.into_iter().map(at_rest).collect()
 }
 
 /// A ball that lies, as anybody can see it: not how it moves or is turned.

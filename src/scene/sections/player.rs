@@ -1,10 +1,8 @@
 //! Who plays.
 
+use crate::scene::entrant::SIMULATIONS_MAX;
 use crate::scene::reader::{Limits, Section};
 use crate::scene::{PlayerKind, PlayerSection, STRENGTH_MAX, SceneError};
-
-/// Most shots that a computer may simulate for a decision.
-const SIMULATIONS_MAX: u64 = 1_000_000;
 
 /// `[[player]]`.
 pub(super) fn player(section: &Section<'_>) -> Result<PlayerSection, SceneError> {
@@ -14,7 +12,7 @@ pub(super) fn player(section: &Section<'_>) -> Result<PlayerSection, SceneError>
         section.number("noise", Limits { low: 0.0, high: 100.0, unit: "", example: "1.0" })?;
     let throw_factor = section
         .number("throw_factor", Limits { low: -0.9, high: 1.5, unit: "", example: "0.0" })?;
-    let simulations = section.integer("simulations", 1..=SIMULATIONS_MAX)?;
+    let simulations = section.integer("simulations", 1..=SIMULATIONS_MAX.into())?;
 
     let only = |key: &str, allowed: &str, instead: &str| {
         let fix = format!("remove {key}, or write kind = \"{instead}\"");
