@@ -9,6 +9,7 @@ mod chance;
 mod combination;
 mod contact;
 mod cushion;
+mod ease;
 mod kick;
 mod mouth;
 mod opening;
@@ -18,6 +19,7 @@ mod spots;
 mod trace;
 mod way;
 
+pub use ease::shut_in;
 pub use spots::spots;
 
 use super::noise::StrokeNoise;

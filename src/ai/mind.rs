@@ -31,6 +31,7 @@ mod world;
 
 use super::noise::StrokeNoise;
 use super::settings::Level;
+use super::stroke::TIP_SPEED_MAX_M_S;
 use super::throw_table::ThrowTable;
 use crate::ball::{Ball, BallState};
 use crate::ids::GameKind;
@@ -40,6 +41,9 @@ use crate::units::Seconds;
 use race::Races;
 use std::sync::Arc;
 use world::World;
+
+/// Tip of a club player's break [m/s].
+const CLUB_BREAK_M_S: f64 = 7.0;
 
 /// What a mind is made of.
 #[derive(Debug, Clone)]
@@ -89,7 +93,7 @@ impl std::ops::Deref for Mind {
 impl Mind {
     /// A mind that has not thought yet.
     pub fn new(setup: MindSetup) -> Self {
-        let races = Races::new(setup.game, &setup.noise);
+        let races = Races::new(setup.game, setup.level, &setup.noise);
         Mind { setup, races }
     }
 
@@ -111,6 +115,15 @@ impl Mind {
             TaskKind::Shoot => search::shoot(self, task, &world, workers),
             TaskKind::Place(zone) => placing::place(self, task, &world, zone, workers),
             TaskKind::Choose => choosing::choose(self, task, &world),
+        }
+    }
+
+    /// How hard a rack is broken [m/s]. Harder is better: of the champion's breaks at 7 m/s half
+    /// pocket a ball without a foul, at 10 m/s two in three.
+    fn break_speed_m_s(&self) -> f64 {
+        match self.level {
+            Level::Paper | Level::Club => CLUB_BREAK_M_S,
+            Level::Champion => TIP_SPEED_MAX_M_S,
         }
     }
 

@@ -10,9 +10,9 @@ use crate::units::Seconds;
 use glam::DVec3;
 use smallvec::SmallVec;
 
-/// The fastest tip of a computer [m/s]: a hard break. A person at a mouse reaches 6 m/s with half a
-/// window in 50 ms, and 12 m/s at most.
-pub const TIP_SPEED_MAX_M_S: f64 = 7.0;
+/// The fastest tip of a computer [m/s]: the hardest break. A person at a mouse reaches 6 m/s with
+/// half a window in 50 ms, and 12 m/s at most.
+pub const TIP_SPEED_MAX_M_S: f64 = 10.0;
 
 /// Duration of the approach [s].
 const APPROACH_S: Seconds = 0.8;
@@ -36,10 +36,12 @@ const STEADY_BEFORE_M: f64 = 0.035;
 const STEADY_AFTER_M: f64 = 0.012;
 /// Follow-through of the softest stroke, in which the cue comes to rest [m].
 const FOLLOW_MIN_M: f64 = 0.06;
-/// That of the hardest [m].
+/// That of a hard one [m].
 const FOLLOW_MAX_M: f64 = 0.10;
 /// Follow-through that each m/s adds [s].
 const FOLLOW_PER_SPEED_S: f64 = 0.01;
+/// The hardest braking of the hand [m/s²]; a hard break follows through until then.
+const FOLLOW_BRAKE_M_S2: f64 = 350.0;
 /// In which time a withdrawn cue first comes to rest [s].
 const BRAKE_S: Seconds = 0.025;
 /// Duration of the withdrawal after that [s].
@@ -126,7 +128,9 @@ impl Stroke {
         let backswing = (BACKSWING_MIN_M + BACKSWING_PER_SPEED_S * speed).min(BACKSWING_MAX_M);
         let half_back = 0.5 * (backswing - ADDRESS_GAP_M);
         let run_up = backswing - STEADY_BEFORE_M;
-        let follow = (FOLLOW_MIN_M + FOLLOW_PER_SPEED_S * speed).min(FOLLOW_MAX_M);
+        let follow = (FOLLOW_MIN_M + FOLLOW_PER_SPEED_S * speed)
+            .min(FOLLOW_MAX_M)
+            .max(speed * speed / (2.0 * FOLLOW_BRAKE_M_S2));
 
         let phase = |from: f64, to: f64, u: f64, v: f64| {
             let duration_s = 2.0 * (to - from) / (u + v);

@@ -6,7 +6,6 @@ use super::world::World;
 use super::{Mind, Outcome, Task, Workers, trial, value};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas, spots};
 use crate::ai::plan::Goal;
-use crate::ai::stroke::TIP_SPEED_MAX_M_S;
 use crate::events::Zone;
 use crate::hash::seed_of;
 use crate::ids::GameKind;
@@ -56,7 +55,7 @@ fn broken(mind: &Mind, world: &World, idea: &Idea, seed: u64) -> Outcome {
     // Where an open table is no gain, it is opened softly.
     let speed_m_s = match mind.game {
         GameKind::Straight | GameKind::Snooker => SPEEDS[1] * idea.speed_least_m_s,
-        _ => TIP_SPEED_MAX_M_S,
+        _ => mind.break_speed_m_s(),
     };
     let touch = Touch { speed_m_s, side: 0.0, height: 0.0 };
     let Some(stroke) = aim::along(mind, world, idea, touch) else { return Outcome::default() };
@@ -72,7 +71,7 @@ fn best_shot(mind: &Mind, world: &World, zone: Zone, seed: u64) -> Outcome {
     let mut best = Outcome { value: 0.5 * value, ..Outcome::default() };
     let Some(cue) = world.view.cue_ball else { return best };
     let goal = Goal::of(&world.turn, &world.view, Some(zone));
-    let prospects = mind.races.prospects(world.referee().state());
+    let prospects = value::prospects(mind, world);
     let ideas = ideas(&world.view, cue, &goal, &mind.noise, Repertoire::Plain);
     let mut simulations = 0;
     // Whoever has the ball in hand pots; only without any pot it matters what else there is.

@@ -8,6 +8,7 @@
 
 use crate::ai::ideas::Idea;
 use crate::ai::noise::StrokeNoise;
+use crate::ai::settings::Level;
 use crate::events::{BallOn, Group, Groups};
 use crate::ids::{BallId, GameKind};
 use crate::rules::State;
@@ -72,11 +73,14 @@ impl Prospects {
 }
 
 impl Races {
-    /// The races of a game between players who err so much.
-    pub fn new(game: GameKind, noise: &StrokeNoise) -> Self {
+    /// The races of a game between two players of this level who err so much.
+    pub fn new(game: GameKind, level: Level, noise: &StrokeNoise) -> Self {
         let times = noise.azimuth_rad / StrokeNoise::OLYMPIAD.azimuth_rad;
-        // Ball for ball what a searching player pots, as measured in tournaments.
-        let pool = (0.93 - 0.08 * times).clamp(0.35, 0.95);
+        // Ball for ball what such a player pots, as measured in tournaments.
+        let pool = match level {
+            Level::Champion => (0.99 - 0.06 * times).clamp(0.35, 0.97),
+            Level::Club | Level::Paper => (0.93 - 0.08 * times).clamp(0.35, 0.95),
+        };
         let pot = match game {
             GameKind::Snooker => pool - 0.1,
             GameKind::FreeCarom => pool - 0.15,
@@ -105,27 +109,47 @@ impl Races {
         Races { game, pot, own, shared }
     }
 
-    /// What the next ball of whoever shoots decides.
-    pub fn prospects(&self, state: &State) -> Prospects {
+    /// What the next ball of whoever shoots decides. Of the shooter's balls and of the other's so
+    /// many are shut in; each counts for one more ball that must be played.
+    pub fn prospects(&self, state: &State, shut_in: [f64; 2]) -> Prospects {
         let standing = self.standing(state);
-        let win = |standing| match standing {
-            Standing::Own(n, m) => self.own[n.min(MOST) * (MOST + 1) + m.min(MOST)],
-            Standing::Shared(n) => self.shared[n.min(MOST)],
+        let (n, m) = match standing {
+            Standing::Own(n, m) => (n as f64, m as f64),
+            Standing::Shared(n) => (n as f64, n as f64),
         };
-        let (after_pot, other) = match standing {
-            Standing::Own(n, m) => (Standing::Own(n.saturating_sub(1), m), Standing::Own(m, n)),
-            Standing::Shared(n) => (Standing::Shared(n.saturating_sub(1)), Standing::Shared(n)),
+        let (own, other) = (n + shut_in[0], m + shut_in[1]);
+        let win = |own: f64, other: f64| match standing {
+            Standing::Own(..) => self.own_at(own, other),
+            Standing::Shared(_) => self.shared_at(own),
         };
-        let other_pots = match other {
-            Standing::Own(n, m) => win(Standing::Own(n.saturating_sub(1), m)),
-            Standing::Shared(n) => win(Standing::Shared(n.saturating_sub(1))),
+        // The last ball wins, whatever else is shut in.
+        let after = |balls: f64, own: f64, other: f64| {
+            if balls <= 1.0 { 1.0 } else { win(own - 1.0, other) }
         };
-        let pot = win(after_pot);
-        let miss = 1.0 - win(other);
+        let other_after = match standing {
+            Standing::Own(..) => after(m, other, own),
+            Standing::Shared(_) => after(n, own, own),
+        };
         // Half of what an average position is worth, and almost a sure ball.
-        let other_misses = 1.0 - win(standing);
-        let with = |chance: f64| 1.0 - (chance * other_pots + (1.0 - chance) * other_misses);
-        Prospects { pot, miss, safe: with(0.5 * self.pot), foul: with(0.5 + 0.5 * self.pot) }
+        let with =
+            |chance: f64| 1.0 - (chance * other_after + (1.0 - chance) * (1.0 - win(own, other)));
+        Prospects {
+            pot: after(n, own, other),
+            miss: 1.0 - win(other, own),
+            safe: with(0.5 * self.pot),
+            foul: with(0.5 + 0.5 * self.pot),
+        }
+    }
+
+    /// w(n, m) between whole numbers, linearly.
+    fn own_at(&self, n: f64, m: f64) -> f64 {
+        let at = |n: usize, m: usize| self.own[n.min(MOST) * (MOST + 1) + m.min(MOST)];
+        between(n, |n| between(m, |m| at(n, m)))
+    }
+
+    /// w(n) between whole numbers, linearly.
+    fn shared_at(&self, n: f64) -> f64 {
+        between(n, |n| self.shared[n.min(MOST)])
     }
 
     fn standing(&self, state: &State) -> Standing {
@@ -142,6 +166,14 @@ impl Races {
             GameKind::FreePlay | GameKind::Training => Standing::Own(left, left),
         }
     }
+}
+
+/// Between the values at the whole numbers around `x`, which is not negative.
+fn between(x: f64, at: impl Fn(usize) -> f64) -> f64 {
+    let below = libm::floor(x.max(0.0));
+    let share = x.max(0.0) - below;
+    let below = below as usize;
+    (1.0 - share) * at(below) + share * at(below + 1)
 }
 
 fn eight_ball(state: &State) -> Standing {
@@ -185,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_race_obeys_its_equation() {
-        let races = Races::new(GameKind::WpaEightBall, &StrokeNoise::OLYMPIAD);
+        let races = Races::new(GameKind::WpaEightBall, Level::Club, &StrokeNoise::OLYMPIAD);
         let w = |n: usize, m: usize| races.own[n * (MOST + 1) + m];
         let q = races.pot;
         for (n, m) in [(1, 1), (3, 7), (8, 2), (100, 99)] {
@@ -200,20 +232,24 @@ mod tests {
 
     #[test]
     fn fewer_balls_to_go_are_better_and_a_foul_is_the_worst() {
-        let races = Races::new(GameKind::WpaEightBall, &StrokeNoise::OLYMPIAD);
+        let races = Races::new(GameKind::WpaEightBall, Level::Club, &StrokeNoise::OLYMPIAD);
         let state = |own: u16, other: u16| State {
             player: PlayerId::ONE,
             groups: Some(Groups::Assigned { one: Group::Solids }),
             on_table: (1..=own).chain([8]).chain(9..9 + other).map(BallId).collect(),
             ..State::default()
         };
-        let few = races.prospects(&state(1, 5));
-        let many = races.prospects(&state(5, 1));
+        let few = races.prospects(&state(1, 5), [0.0; 2]);
+        let many = races.prospects(&state(5, 1), [0.0; 2]);
         assert!(many.pot < few.pot && many.miss < few.miss);
         for prospects in [few, many] {
             let Prospects { pot, miss, safe, foul } = prospects;
             assert!(foul < miss && miss < safe && safe < pot, "{prospects:?}");
         }
-        assert_eq!(races.prospects(&state(0, 5)).pot, 1.0);
+        assert_eq!(races.prospects(&state(0, 5), [0.0; 2]).pot, 1.0);
+        let shut_in = |own, other| races.prospects(&state(4, 4), [own, other]);
+        let (open, own, other) = (shut_in(0.0, 0.0), shut_in(1.3, 0.0), shut_in(0.0, 1.3));
+        assert!(own.pot < open.pot && open.pot < other.pot);
+        assert!(own.miss < open.miss && open.miss < other.miss);
     }
 }

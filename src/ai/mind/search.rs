@@ -11,8 +11,6 @@ use super::{Mind, Outcome, Task, Workers};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
 use crate::ai::plan::Goal;
 use crate::ai::settings::Level;
-use crate::ai::stroke::TIP_SPEED_MAX_M_S;
-use crate::events::BallInHand;
 use crate::hash::seed_of;
 use crate::ids::GameKind;
 
@@ -37,8 +35,6 @@ struct Breadth {
     leaders: usize,
     /// How often in the first round.
     first_round: u32,
-    /// Positions after each of the last shots that are looked at again.
-    second_look: u32,
 }
 
 impl Breadth {
@@ -52,7 +48,6 @@ impl Breadth {
             sides: &[0.0],
             leaders: 10,
             first_round: 8,
-            second_look: 0,
         };
         const FULL: Breadth = Breadth {
             leading: 6,
@@ -62,21 +57,15 @@ impl Breadth {
             sides: &[0.0, -0.3, 0.3],
             leaders: 24,
             first_round: 8,
-            second_look: 6,
         };
         match (level, simulations) {
             (_, 0..=30) => {
                 Breadth { ideas: [3, 0, 1], speeds: &[1.4], heights: &[0.0], leaders: 4, ..CLUB }
             }
             (Level::Paper | Level::Club, _) => CLUB,
-            (_, 0..=300) => Breadth {
-                leading: 0,
-                ideas: [4, 1, 4],
-                leaders: 8,
-                first_round: 4,
-                second_look: 0,
-                ..FULL
-            },
+            (_, 0..=300) => {
+                Breadth { leading: 0, ideas: [4, 1, 4], leaders: 8, first_round: 4, ..FULL }
+            }
             (_, 301..=1500) => Breadth {
                 leading: 4,
                 ideas: [6, 3, 6],
@@ -85,7 +74,6 @@ impl Breadth {
                 sides: &[0.0],
                 leaders: 12,
                 first_round: 8,
-                second_look: 2,
             },
             _ => FULL,
         }
@@ -102,20 +90,11 @@ struct Contender {
     successes: u32,
     legals: u32,
     value_sum: f64,
-    /// What a second look adds to the value of the same positions.
-    correction: f64,
 }
 
 impl Contender {
     fn value(&self) -> f64 {
         if self.samples == 0 { self.promise } else { self.value_sum / f64::from(self.samples) }
-    }
-
-    /// What it is chosen by: the first estimate has more samples, the second look sees further.
-    /// Only what the second one changes counts, so that the few errors of the arm that it saw
-    /// decide nothing.
-    fn worth(&self) -> f64 {
-        (self.value() + self.correction).clamp(0.0, 1.0)
     }
 
     fn take(&mut self, outcome: &Outcome) {
@@ -160,7 +139,6 @@ pub fn shoot(
     let mut search = Search { mind, task, world, workers, ideas, simulations: 0 };
     let mut contenders = search.without_noise(&breadth);
     search.halve(&mut contenders, &breadth);
-    search.look_again(&mut contenders, &breadth);
     search.conclude(contenders)
 }
 
@@ -168,12 +146,14 @@ impl Search<'_> {
     /// What is tried: everything that costs one simulation, then what must be scanned, the first
     /// touch of every idea before the second of any; for half of the budget.
     fn tries(&self, breadth: &Breadth) -> Vec<(usize, Touch)> {
+        // Where an open table is no gain, the break is a shot like any other.
         let is_soft = matches!(self.mind.game, GameKind::Straight | GameKind::Snooker);
+        let break_m_s = (!is_soft).then(|| self.mind.break_speed_m_s());
         let mut tries: Vec<(bool, usize, usize, Touch)> = Vec::new();
         for (n, idea) in self.ideas.iter().enumerate() {
             let is_leading = n < breadth.leading && idea.kind == IdeaKind::Pot;
             let is_scanned = aim::is_worth_a_scan(idea);
-            let touches = touches(idea, is_leading, is_soft, breadth).enumerate();
+            let touches = touches(idea, is_leading, break_m_s, breadth).enumerate();
             tries.extend(touches.map(|(rank, touch)| (is_scanned, rank, n, touch)));
         }
         // Stable: what costs little stays in the order of the ideas.
@@ -202,7 +182,7 @@ impl Search<'_> {
             let (n, touch) = tries[job];
             aim::best(mind, world, &ideas[n], touch)
         });
-        let prospects = mind.races.prospects(world.referee().state());
+        let prospects = value::prospects(mind, world);
         let mut contenders: Vec<Contender> = tries
             .iter()
             .zip(&outcomes)
@@ -215,15 +195,7 @@ impl Search<'_> {
                     false => 0.5 * outcome.value,
                 };
                 let trial = Trial { idea: *n, aim: outcome.aim, speed_m_s: outcome.speed_m_s };
-                Contender {
-                    trial,
-                    promise,
-                    samples: 0,
-                    successes: 0,
-                    legals: 0,
-                    value_sum: 0.0,
-                    correction: 0.0,
-                }
+                Contender { trial, promise, samples: 0, successes: 0, legals: 0, value_sum: 0.0 }
             })
             .collect();
         // Stable: of equal ones the first that was thought of.
@@ -266,33 +238,6 @@ impl Search<'_> {
         }
     }
 
-    /// Looks at the positions that the last few leave by a small search of their own.
-    fn look_again(&mut self, contenders: &mut [Contender], breadth: &Breadth) {
-        const LAST: usize = 4;
-        /// About what a second look costs.
-        const LOOK: u32 = 60;
-        let affordable = self.left_over() / (LOOK * LAST as u32);
-        let looks = breadth.second_look.min(affordable) as usize;
-        if looks == 0 || self.workers.is_cancelled() {
-            return;
-        }
-        let last = contenders.len().min(LAST);
-        let (mind, world, ideas, task) = (self.mind, self.world, &self.ideas, self.task);
-        let looks = if mind.noise.is_none() { 1 } else { looks };
-        let leaders = &contenders[..last];
-        let outcomes = self.workers.run(last * looks, &|job| {
-            let trial = &leaders[job / looks].trial;
-            let seed = seed_of(task.seed, (job % looks) as u64);
-            second_look(mind, world, &ideas[trial.idea], trial, seed)
-        });
-        for (n, seen) in outcomes.chunks(looks).enumerate() {
-            let sum: f64 = seen.iter().map(|outcome| outcome.value).sum();
-            contenders[n].correction = sum / looks as f64;
-            self.simulations += seen.iter().map(|outcome| outcome.simulations).sum::<u32>();
-        }
-        contenders[..last].sort_by(|a, b| b.worth().total_cmp(&a.worth()));
-    }
-
     /// Simulations that are left.
     fn left_over(&self) -> u32 {
         self.mind.simulations.saturating_sub(self.simulations)
@@ -313,7 +258,7 @@ impl Search<'_> {
             speed_m_s: first.trial.speed_m_s,
             call: trial::call(&idea, self.world.turn.calls),
             success: share(first.successes, first),
-            value: first.worth(),
+            value: first.value(),
             idea,
         };
         let considered = |(n, contender): (usize, &Contender)| Considered {
@@ -322,7 +267,7 @@ impl Search<'_> {
             speed_m_s: contender.trial.speed_m_s,
             success: share(contender.successes, contender),
             legal: share(contender.legals, contender),
-            value: contender.worth(),
+            value: contender.value(),
             samples: contender.samples,
             chosen: n == 0,
         };
@@ -354,18 +299,16 @@ fn of_each_kind(ideas: Vec<Idea>, breadth: &Breadth) -> Vec<Idea> {
     kinds.into_iter().flatten().collect()
 }
 
-/// How an idea is tried.
+/// How an idea is tried; a break with up to so many m/s, if it is one to be played hard.
 fn touches<'a>(
     idea: &'a Idea,
     is_leading: bool,
-    is_soft: bool,
+    break_m_s: Option<f64>,
     breadth: &'a Breadth,
 ) -> impl Iterator<Item = Touch> + 'a {
-    // Where an open table is no gain, the break is a shot like any other.
-    let is_break = idea.kind == IdeaKind::Break && !is_soft;
-    let (most, least) = match is_break {
-        true => (TIP_SPEED_MAX_M_S, 0.8 * TIP_SPEED_MAX_M_S),
-        false => (SPEED_MOST_M_S, idea.speed_least_m_s),
+    let (most, least) = match break_m_s.filter(|_| idea.kind == IdeaKind::Break) {
+        Some(hardest) => (hardest, 0.8 * hardest),
+        None => (SPEED_MOST_M_S, idea.speed_least_m_s),
     };
     let sides = if is_leading { breadth.sides } else { &breadth.sides[..1] };
     let heights =
@@ -406,44 +349,4 @@ fn diverse(contenders: Vec<Contender>, wanted: usize, ideas: &[Idea]) -> Vec<Con
     rest.truncate(wanted - taken.len());
     taken.append(&mut rest);
     taken
-}
-
-/// Plays a shot once more as the arm makes it, and looks for the best answer to what it leaves: how
-/// much more that is worth than geometry said.
-fn second_look(mind: &Mind, world: &World, idea: &Idea, trial: &Trial, seed: u64) -> Outcome {
-    const ANSWERS: usize = 4;
-    const SPEEDS: [f64; 2] = [1.2, 1.8];
-    const HEIGHTS: [f64; 3] = [0.0, -0.3, 0.3];
-    let stroke = (trial.aim, trial.speed_m_s);
-    let (aim, speed_m_s) = trial::erred(mind, stroke, seed);
-    let call = trial::call(idea, world.turn.calls);
-    let nothing = Outcome { simulations: 1, ..Outcome::default() };
-    let Ok(mut played) = world.play(mind, aim, speed_m_s, call.as_ref()) else { return nothing };
-    let Some(next) = value::next(mind, &mut played) else { return nothing };
-    let is_played_as_it_lies =
-        next.turn.options.is_empty() && next.turn.ball_in_hand == BallInHand::None;
-    let Some(cue) = next.view.cue_ball.filter(|_| is_played_as_it_lies) else {
-        return nothing;
-    };
-    let goal = Goal::of(&next.turn, &next.view, None);
-    let answers = ideas(&next.view, cue, &goal, &mind.noise, Repertoire::Plain);
-    let pots = answers.iter().filter(|answer| answer.pocket.is_some()).take(ANSWERS);
-    let prospects = mind.races.prospects(next.referee().state());
-    let mut simulations = 1;
-    let mut attack: Option<f64> = None;
-    for answer in pots {
-        let (worth, tried) = aim::worth(mind, &next, answer, &SPEEDS, &HEIGHTS, &prospects);
-        simulations += tried;
-        // Of a pot that no touch makes only the miss is left.
-        let best = attack.unwrap_or(prospects.miss);
-        attack = Some(worth.map_or(best, |worth| best.max(worth)));
-    }
-    let Some(attack) = attack else { return Outcome { simulations, ..nothing } };
-    // What geometry says of a safety stays; of the pots the simulation knows more.
-    let contact = answers.iter().filter(|a| a.pocket.is_none()).map(|a| a.chance);
-    let contact = contact.fold(0.0, f64::max);
-    let seen = attack.max(prospects.of_contact(contact));
-    let (player, known) = (world.player(), value::position(mind, &next, None));
-    let value = value::seen_by(player, &next, seen) - value::seen_by(player, &next, known);
-    Outcome { value, simulations, ..nothing }
 }

@@ -3,10 +3,11 @@
 use super::race::Prospects;
 use super::world::{Played, World};
 use super::{Mind, choosing};
-use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas};
+use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas, shut_in};
 use crate::ai::plan::Goal;
-use crate::events::{BallInHand, ShotKind, TurnAfter, Zone};
-use crate::ids::{GameKind, PlayerId};
+use crate::ai::settings::Level;
+use crate::events::{BallInHand, Group, ShotKind, TurnAfter, Zone};
+use crate::ids::{BallId, GameKind, PlayerId};
 
 /// Chance of a ball from anywhere on the bed.
 const IN_HAND: f64 = 0.95;
@@ -39,12 +40,42 @@ pub fn next(mind: &Mind, played: &mut Played) -> Option<World> {
     World::new(mind, &lies, played.referee.clone(), turn).ok()
 }
 
+/// What the next ball of whoever is at the table decides.
+pub fn prospects(mind: &Mind, world: &World) -> Prospects {
+    let state = world.referee().state();
+    // The club's player only counts balls.
+    let shut_in = match mind.level {
+        Level::Champion => shut_in_of_groups(mind, world),
+        Level::Club | Level::Paper => [0.0; 2],
+    };
+    mind.races.prospects(state, shut_in)
+}
+
+/// How many balls of the shooter and of the other are shut in, where each has a group; with the 8,
+/// as it will lie when the group is gone.
+fn shut_in_of_groups(mind: &Mind, world: &World) -> [f64; 2] {
+    const EIGHT: [BallId; 1] = [BallId(8)];
+    let state = world.referee().state();
+    [state.player, state.player.other()].map(|player| {
+        let Some(group) = state.groups.and_then(|groups| groups.of(player)) else { return 0.0 };
+        let on_table = state.on_table.iter().copied();
+        let own: Vec<BallId> = on_table.filter(|b| Group::of(*b) == Some(group)).collect();
+        // Of the last ball the position itself tells.
+        if own.is_empty() {
+            return 0.0;
+        }
+        let count =
+            |balls: &[BallId], gone: &[BallId]| shut_in(&world.view, &mind.noise, balls, gone);
+        count(&own, &[]) + count(&EIGHT, &own)
+    })
+}
+
 /// Chance that whoever is at the table wins, as far as geometry can tell.
 pub fn position(mind: &Mind, world: &World, played_from: Option<Zone>) -> f64 {
     if !world.turn.options.is_empty() {
         return choosing::best(mind, world).map_or(0.5, |(_, value)| value);
     }
-    let prospects = mind.races.prospects(world.referee().state());
+    let prospects = prospects(mind, world);
     if world.turn.shot == ShotKind::Break {
         return prospects.of_pot(BREAK * mind.races.pot);
     }

@@ -165,7 +165,7 @@ fn the_budget_bounds_the_simulations() {
     ] {
         for task in [crowded(), hidden()] {
             let answer = mind(level, 1.0, budget).deliberate(&task, &Inline);
-            // A second look ends its last job.
+            // A scan ends when it has begun.
             let most = budget + budget / 4;
             assert!(answer.simulations <= most, "{budget}: {}", answer.simulations);
             let candidates = &answer.thoughts.candidates;

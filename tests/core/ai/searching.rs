@@ -404,8 +404,8 @@ fn the_tip_meets_the_ball_as_planned_up_to_the_hardest_stroke() {
                 side_offset: 0.6 * part(2) - 0.3,
                 height_offset: 0.6 * part(3) - 0.3,
             };
-            let speed_m_s = 0.3 + 7.5 * part(4);
-            plans.lock().unwrap().push((aim, speed_m_s.min(7.0)));
+            let speed_m_s = 0.3 + 10.5 * part(4);
+            plans.lock().unwrap().push((aim, speed_m_s.min(hapticbillard::ai::TIP_SPEED_MAX_M_S)));
             shot(aim, speed_m_s, None)
         }
         _ => Decision::Nothing,
