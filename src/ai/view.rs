@@ -76,8 +76,15 @@ impl TableView2d {
     pub fn has_room(&self, position: DVec2) -> bool {
         /// Distance that a hand leaves between balls [m].
         const GAP_M: f64 = 0.001;
-        let apart = 2.0 * self.ball_radius_m + GAP_M;
-        self.bed.holds(position, self.ball_radius_m + GAP_M)
-            && self.balls.iter().all(|ball| ball.position.distance(position) >= apart)
+        self.has_room_for(position, GAP_M, &[])
+    }
+
+    /// Whether a ball at `position` has a gap of so much [m] to the cushions and to all object
+    /// balls but those that are `ignored`.
+    pub(super) fn has_room_for(&self, position: DVec2, gap_m: f64, ignored: &[BallId]) -> bool {
+        let apart = 2.0 * self.ball_radius_m + gap_m;
+        let mut others = self.balls.iter().filter(|ball| !ignored.contains(&ball.id));
+        self.bed.holds(position, self.ball_radius_m + gap_m)
+            && others.all(|ball| ball.position.distance(position) >= apart)
     }
 }

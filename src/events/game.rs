@@ -253,6 +253,11 @@ pub enum Group {
 }
 
 impl Group {
+    /// The balls of this group among others, in their order.
+    pub fn among(self, balls: &[BallId]) -> impl Iterator<Item = BallId> {
+        balls.iter().copied().filter(move |ball| Group::of(*ball) == Some(self))
+    }
+
     /// The group of a pool ball; none for the cue ball and the 8.
     pub fn of(ball: BallId) -> Option<Self> {
         match ball.0 {

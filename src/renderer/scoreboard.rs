@@ -167,7 +167,7 @@ impl Scoreboard {
     /// table is open, or in a game without groups.
     pub fn remaining(&self, player: PlayerId) -> Option<Vec<BallId>> {
         let group = self.group(player)?;
-        let own = self.on_table.iter().copied().filter(|ball| Group::of(*ball) == Some(group));
+        let own = group.among(&self.on_table);
         let mut balls: Vec<BallId> = own.collect();
         balls.extend(self.on_table.iter().filter(|ball| **ball == BallId::EIGHT));
         Some(balls)

@@ -45,14 +45,8 @@ fn ease(position: &Position<'_>, ball: BallId, at: DVec2, gone: &[BallId]) -> f6
 
 /// Whether there is room for the ghost, and for a cue ball that comes from somewhere behind it.
 fn can_be_met(position: &Position<'_>, at: DVec2, way: DVec2, ignored: &[BallId]) -> bool {
-    let apart = 2.0 * position.radius();
-    let view = position.view;
-    let has_room = |spot: DVec2| {
-        let is_clear = |other: DVec2| apart <= other.distance(spot);
-        let mut others = view.balls.iter().filter(|ball| !ignored.contains(&ball.id));
-        view.bed.holds(spot, position.radius()) && others.all(|ball| is_clear(ball.position))
-    };
-    let ghost = at - apart * way;
+    let has_room = |spot: DVec2| position.view.has_room_for(spot, 0.0, ignored);
+    let ghost = at - 2.0 * position.radius() * way;
     has_room(ghost)
         && BESIDE_RAD.iter().any(|angle| has_room(ghost - turned(way, *angle) * BEHIND_M))
 }

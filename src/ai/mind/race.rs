@@ -126,10 +126,7 @@ impl Races {
         let after = |balls: f64, own: f64, other: f64| {
             if balls <= 1.0 { 1.0 } else { win(own - 1.0, other) }
         };
-        let other_after = match standing {
-            Standing::Own(..) => after(m, other, own),
-            Standing::Shared(_) => after(n, own, own),
-        };
+        let other_after = after(m, other, own);
         // Half of what an average position is worth, and almost a sure ball.
         let with =
             |chance: f64| 1.0 - (chance * other_after + (1.0 - chance) * (1.0 - win(own, other)));
@@ -177,9 +174,7 @@ fn between(x: f64, at: impl Fn(usize) -> f64) -> f64 {
 }
 
 fn eight_ball(state: &State) -> Standing {
-    let left = |group: Group| {
-        state.on_table.iter().filter(|ball| Group::of(**ball) == Some(group)).count() + 1
-    };
+    let left = |group: Group| group.among(&state.on_table).count() + 1;
     match state.groups.unwrap_or_default() {
         Groups::Assigned { .. } => {
             let groups = state.groups.unwrap_or_default();

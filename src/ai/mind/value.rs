@@ -6,7 +6,7 @@ use super::{Mind, choosing};
 use crate::ai::ideas::{Idea, IdeaKind, Repertoire, ideas, shut_in};
 use crate::ai::plan::Goal;
 use crate::ai::settings::Level;
-use crate::events::{BallInHand, Group, ShotKind, TurnAfter, Zone};
+use crate::events::{BallInHand, ShotKind, TurnAfter, Zone};
 use crate::ids::{BallId, GameKind, PlayerId};
 
 /// Chance of a ball from anywhere on the bed.
@@ -34,7 +34,7 @@ pub fn seen_by(player: PlayerId, world: &World, value: f64) -> f64 {
 }
 
 /// The position after a shot, if the game goes on.
-pub fn next(mind: &Mind, played: &mut Played) -> Option<World> {
+fn next(mind: &Mind, played: &mut Played) -> Option<World> {
     let turn = played.turn.clone()?;
     let lies = played.lies();
     World::new(mind, &lies, played.referee.clone(), turn).ok()
@@ -54,19 +54,17 @@ pub fn prospects(mind: &Mind, world: &World) -> Prospects {
 /// How many balls of the shooter and of the other are shut in, where each has a group; with the 8,
 /// as it will lie when the group is gone.
 fn shut_in_of_groups(mind: &Mind, world: &World) -> [f64; 2] {
-    const EIGHT: [BallId; 1] = [BallId(8)];
     let state = world.referee().state();
     [state.player, state.player.other()].map(|player| {
         let Some(group) = state.groups.and_then(|groups| groups.of(player)) else { return 0.0 };
-        let on_table = state.on_table.iter().copied();
-        let own: Vec<BallId> = on_table.filter(|b| Group::of(*b) == Some(group)).collect();
+        let own: Vec<BallId> = group.among(&state.on_table).collect();
         // Of the last ball the position itself tells.
         if own.is_empty() {
             return 0.0;
         }
         let count =
             |balls: &[BallId], gone: &[BallId]| shut_in(&world.view, &mind.noise, balls, gone);
-        count(&own, &[]) + count(&EIGHT, &own)
+        count(&own, &[]) + count(&[BallId::EIGHT], &own)
     })
 }
 
