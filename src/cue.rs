@@ -107,12 +107,15 @@ pub struct CuePose {
 }
 
 impl CuePose {
-    /// Whether the shaft, which widens evenly from tip to butt, lies in a ball at `centre` [m].
+    /// Whether the shaft lies in a ball at `centre` [m].
     pub fn shaft_meets(&self, centre: DVec3, radius_m: f64) -> bool {
         let back = (self.tip - centre).dot(self.direction).clamp(0.0, CUE_LENGTH_M);
-        let share = back / CUE_LENGTH_M;
-        let shaft_m = SHAFT_RADIUS_M + share * (BUTT_RADIUS_M - SHAFT_RADIUS_M);
         let axis = self.tip - self.direction * back;
-        back > 0.0 && axis.distance(centre) < radius_m + shaft_m
+        back > 0.0 && axis.distance(centre) < radius_m + shaft_radius(back)
     }
+}
+
+/// Radius of the shaft so far behind the tip [m]: it widens evenly from tip to butt.
+fn shaft_radius(back_m: f64) -> f64 {
+    SHAFT_RADIUS_M + back_m / CUE_LENGTH_M * (BUTT_RADIUS_M - SHAFT_RADIUS_M)
 }

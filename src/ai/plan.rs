@@ -7,7 +7,7 @@ use super::fallback;
 use super::geometry::{is_free, signed_angle, turned};
 use super::speed;
 use super::view::TableView2d;
-use crate::cue::elevation_over_balls;
+use crate::cue::{Aim, elevation_over_balls};
 use crate::events::{ShotKind, Turn, Zone};
 use crate::ids::{BallId, PocketId};
 use crate::table::Pocket;
@@ -258,7 +258,7 @@ pub fn candidate(
     let (to_ball_m, to_pocket_m) = (cue.distance(ghost), position.distance(pocket_target));
     let gap_m = cue.distance(position) - 2.0 * radius;
     let others = view.balls.iter().map(|other| other.position);
-    let raised = elevation_over_balls(cue, direction, others, radius);
+    let raised = elevation_over_balls(cue, &Aim::along(direction), others, radius);
     let cost = cost(to_ball_m, to_pocket_m, cut_rad, entry_rad, gap_m, view) + RAISED_COST * raised;
     Some(Candidate {
         ball,

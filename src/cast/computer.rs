@@ -3,6 +3,7 @@
 use super::CastError;
 use crate::ai::{Level, Mind, MindSetup, Player, PlayerSettings, ThrowTable};
 use crate::ball::{Ball, BallState};
+use crate::cue::Aim;
 use crate::hash::seed_of;
 use crate::ids::PlayerId;
 use crate::physics::{PhysicsError, PhysicsSettings, Profile, Simulation, SolverKind};
@@ -60,7 +61,9 @@ impl Surroundings<'_> {
     ) -> Result<Player, CastError> {
         let mut settings = self.settings(section, id)?;
         let rails = self.table.clone();
-        let clearance = Arc::new(move |at, azimuth| rails.clearance_elevation(at, azimuth));
+        let clearance = Arc::new(move |at, azimuth_rad| {
+            rails.clearance_elevation(at, &Aim { azimuth_rad, ..Aim::default() })
+        });
         let player = |settings| {
             let pockets = self.table.pockets.clone();
             Player::new(id, settings, bed, pockets, self.ball_radius_m, clearance)

@@ -1,6 +1,6 @@
 //! Aim: where the cue points and where its tip will meet the cue ball, whoever holds it.
 
-use super::TIP_RADIUS_M;
+use super::{TIP_RADIUS_M, shaft_radius};
 use glam::{DVec2, DVec3};
 
 /// Largest distance of the contact point from the middle of the ball, in ball radii. Beyond
@@ -9,9 +9,6 @@ pub const OFFSET_LIMIT: f64 = 0.5;
 
 /// How far the shaft stays away from balls that it passes over, besides the tip's radius [m].
 const SHAFT_MARGIN_M: f64 = 0.003;
-
-/// Steepest cue that a player holds [rad]: 60 degrees.
-const ELEVATION_LIMIT_RAD: f64 = 60.0 * std::f64::consts::PI / 180.0;
 
 /// How a cue is held against the cue ball.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
@@ -69,6 +66,14 @@ impl Aim {
         self.direction() * -(1.0 - s * s - h * h).sqrt() + self.right() * s + self.up() * h
     }
 
+    /// How far the shaft's axis passes the middle of the ball to the right and above [m], at
+    /// right angles to the shaft.
+    pub fn axis_offset(&self, ball_radius_m: f64) -> (f64, f64) {
+        let Aim { side_offset, height_offset, .. } = self.limited();
+        let apart = ball_radius_m + TIP_RADIUS_M;
+        (side_offset * apart, height_offset * apart)
+    }
+
     /// Where the tip meets the ball [m].
     pub fn contact_point(&self, ball_centre: DVec3, ball_radius_m: f64) -> DVec3 {
         ball_centre + self.contact_normal() * ball_radius_m
@@ -100,26 +105,32 @@ impl Aim {
     }
 }
 
-/// Smallest elevation at which the cue passes over the balls behind the cue ball [rad].
+/// Smallest elevation at which the cue of `aim` passes over the balls behind the cue ball [rad];
+/// its own elevation does not matter. Up to a quarter turn: more than a hand holds.
 ///
-/// The shaft lies on a line through the cue ball's middle. A ball at the distance `k` behind it
-/// and `l` beside that line is `√(k² sin²θ + l²)` away from the shaft, which must be at least
-/// `R + ρ`: `sin θ ≥ √((R + ρ)² − l²) / k`. Nothing behind gives 0.
+/// The shaft's axis passes the cue ball's middle at `a = (R + ρ) s` to the right and
+/// `b = (R + ρ) h` above, with s and h the offsets of the tip and ρ its radius. A ball at the
+/// distance `k` behind and `l` to the right is `√((k sin θ + b)² + (l − a)²)` away from the axis,
+/// which must be at least `R + ρ`, or R and the shaft's radius there if that is more:
+/// `sin θ ≥ (√((R + ρ)² − (l − a)²) − b) / k`. Nothing behind gives 0.
 pub fn elevation_over_balls(
     cue_ball: DVec2,
-    direction: DVec2,
+    aim: &Aim,
     others: impl IntoIterator<Item = DVec2>,
     ball_radius_m: f64,
 ) -> f64 {
-    let reach = ball_radius_m + TIP_RADIUS_M + SHAFT_MARGIN_M;
+    let aim = Aim { elevation_rad: 0.0, ..aim.limited() };
+    let direction = aim.direction().truncate();
+    let (right_m, above_m) = aim.axis_offset(ball_radius_m);
     let steepest = others
         .into_iter()
         .filter_map(|ball| {
             let back = (cue_ball - ball).dot(direction);
-            let beside = (ball - cue_ball).perp_dot(direction);
+            let beside = (ball - cue_ball).perp_dot(direction) - right_m;
+            let reach = ball_radius_m + shaft_radius(back).max(TIP_RADIUS_M) + SHAFT_MARGIN_M;
             let behind = 0.0 < back && back < super::CUE_LENGTH_M && beside.abs() < reach;
-            behind.then(|| (reach * reach - beside * beside).sqrt() / back)
+            behind.then(|| ((reach * reach - beside * beside).sqrt() - above_m) / back)
         })
         .fold(0.0, f64::max);
-    libm::asin(steepest.min(1.0)).min(ELEVATION_LIMIT_RAD)
+    libm::asin(steepest.min(1.0))
 }

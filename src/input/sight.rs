@@ -1,15 +1,12 @@
 //! What a player sees along the cue: which ball is met, how steep the cue must be held.
 
 use super::feel::{ELEVATION_MAX_RAD, ELEVATION_MIN_RAD};
-use crate::cue::{Aim, CUE_LENGTH_M, TIP_RADIUS_M, elevation_over_balls};
+use crate::cue::{Aim, elevation_over_balls};
 use crate::events::{ShotKind, Turn};
 use crate::ids::BallId;
 use crate::physics::Snapshot;
 use crate::table::{Bed, Table};
 use glam::{DVec2, DVec3};
-
-/// By how much the cue is raised at a time to find a way past a ball [rad].
-const RAISE_RAD: f64 = 0.25 * std::f64::consts::PI / 180.0;
 
 /// Where a ball's middle is on the bed, if it is in play [m].
 pub(super) fn place_of(table: &Snapshot, ball: BallId) -> Option<DVec3> {
@@ -57,27 +54,10 @@ pub(super) fn elevation_needed(
     seen: &Snapshot,
     table: &Table,
 ) -> f64 {
-    let radius_m = centre.z;
-    let direction = Aim { elevation_rad: 0.0, ..aim }.direction().truncate();
     let places = others(seen, cue_ball).map(DVec3::truncate);
-    let over_balls = elevation_over_balls(centre.truncate(), direction, places, radius_m);
-    let over_rail = table.clearance_elevation(centre.truncate(), aim.azimuth_rad);
-    let mut elevation_rad = over_balls.max(over_rail).max(ELEVATION_MIN_RAD);
-    // Both reckon with the middle of the ball; below the middle, the cue lies lower.
-    while elevation_rad < ELEVATION_MAX_RAD {
-        let held = Aim { elevation_rad, ..aim };
-        let tip = held.tip_at_contact(centre, radius_m);
-        let reach = radius_m + TIP_RADIUS_M;
-        let is_clear = |ball: DVec3| {
-            let back = (tip - ball).dot(held.direction()).clamp(0.0, CUE_LENGTH_M);
-            (tip - held.direction() * back).distance(ball) > reach
-        };
-        if others(seen, cue_ball).all(is_clear) {
-            break;
-        }
-        elevation_rad += RAISE_RAD;
-    }
-    elevation_rad.min(ELEVATION_MAX_RAD)
+    let over_balls = elevation_over_balls(centre.truncate(), &aim, places, centre.z);
+    let over_rail = table.clearance_elevation(centre.truncate(), &aim);
+    over_balls.max(over_rail).clamp(ELEVATION_MIN_RAD, ELEVATION_MAX_RAD)
 }
 
 /// Where the cue ball's middle is when it meets the first ball or cushion on its straight way

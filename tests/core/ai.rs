@@ -12,6 +12,7 @@ mod stroke;
 use glam::DVec2;
 use hapticbillard::ai::{Clearance, SeenBall, TableView2d};
 use hapticbillard::ball::POOL_RADIUS_M;
+use hapticbillard::cue::Aim;
 use hapticbillard::ids::BallId;
 use hapticbillard::table::{Bed, Pocket, Table};
 use rand::{RngExt, SeedableRng};
@@ -33,7 +34,9 @@ pub fn pockets() -> Vec<Pocket> {
 
 /// How steep the cue must be to clear the rails.
 pub fn clearance() -> Clearance {
-    Arc::new(|cue_ball, azimuth_rad| table().clearance_elevation(cue_ball, azimuth_rad))
+    Arc::new(|cue_ball, azimuth_rad| {
+        table().clearance_elevation(cue_ball, &Aim { azimuth_rad, ..Aim::default() })
+    })
 }
 
 /// A table seen from above.

@@ -67,8 +67,9 @@ fn verdict_of(game: GameKind, turn: &Turn, facts: &[Fact]) -> Verdict {
 /// A level stroke at a ball, the cue raised as far as rail and balls ask for.
 fn stroke(table: &Table, world: &Snapshot, ball: BallId, azimuth_rad: f64, speed: f64) -> Stroke {
     let centre = world.ball(ball).unwrap().position;
-    let elevation_rad = table.clearance_elevation(centre.truncate(), azimuth_rad).max(0.06);
-    let aim = Aim { azimuth_rad, elevation_rad, ..Aim::default() };
+    let level = Aim { azimuth_rad, ..Aim::default() };
+    let elevation_rad = table.clearance_elevation(centre.truncate(), &level).max(0.06);
+    let aim = Aim { elevation_rad, ..level };
     Stroke::at_ball(aim, centre, CAROM_RADIUS_M, speed)
 }
 

@@ -34,14 +34,15 @@ pub struct Touch {
     pub height: f64,
 }
 
-/// The cue along an idea's direction, and the tip's speed [m/s].
+/// The cue along an idea's direction, and the tip's speed [m/s]; none if it cannot be held so.
 pub fn along(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Option<(Aim, f64)> {
     let cue = world.view.cue_ball?;
     let azimuth_rad = libm::atan2(idea.direction.y, idea.direction.x);
-    let over_rail = mind.table.clearance_elevation(cue, azimuth_rad);
-    let elevation_rad = hold::elevation(&world.view, cue, idea.direction, over_rail);
     let height_offset = idea.height_offset + touch.height;
-    let aim = Aim { azimuth_rad, elevation_rad, side_offset: touch.side, height_offset }.limited();
+    let level = Aim { azimuth_rad, elevation_rad: 0.0, side_offset: touch.side, height_offset };
+    let over_rail = mind.table.clearance_elevation(cue, &level);
+    let elevation_rad = hold::elevation(&world.view, cue, &level, over_rail)?;
+    let aim = Aim { elevation_rad, ..level }.limited();
     Some((aim, hold::tip_speed(touch.speed_m_s, elevation_rad)))
 }
 

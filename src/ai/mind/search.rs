@@ -86,6 +86,8 @@ struct Contender {
     trial: Trial,
     /// What it is worth before it was tried with noise.
     promise: f64,
+    /// Whether it was no foul then.
+    is_legal: bool,
     samples: u32,
     successes: u32,
     legals: u32,
@@ -95,6 +97,11 @@ struct Contender {
 impl Contender {
     fn value(&self) -> f64 {
         if self.samples == 0 { self.promise } else { self.value_sum / f64::from(self.samples) }
+    }
+
+    /// It was a foul whenever it was tried.
+    fn is_foul(&self) -> bool {
+        if self.samples == 0 { !self.is_legal } else { self.legals == 0 }
     }
 
     fn take(&mut self, outcome: &Outcome) {
@@ -195,7 +202,15 @@ impl Search<'_> {
                     false => 0.5 * outcome.value,
                 };
                 let trial = Trial { idea: *n, aim: outcome.aim, speed_m_s: outcome.speed_m_s };
-                Contender { trial, promise, samples: 0, successes: 0, legals: 0, value_sum: 0.0 }
+                Contender {
+                    trial,
+                    promise,
+                    is_legal: outcome.legal,
+                    samples: 0,
+                    successes: 0,
+                    legals: 0,
+                    value_sum: 0.0,
+                }
             })
             .collect();
         // Stable: of equal ones the first that was thought of.
@@ -243,7 +258,10 @@ impl Search<'_> {
         self.mind.simulations.saturating_sub(self.simulations)
     }
 
-    fn conclude(self, contenders: Vec<Contender>) -> Option<Deliberation> {
+    fn conclude(self, mut contenders: Vec<Contender>) -> Option<Deliberation> {
+        // Nobody fouls on purpose while there is another way, however little the value of a
+        // position thinks of it. Stable: otherwise the best stays the first.
+        contenders.sort_by_key(Contender::is_foul);
         let first = contenders.first()?;
         let share = |count: u32, contender: &Contender| {
             if contender.samples == 0 {

@@ -98,7 +98,9 @@ impl Player {
         let plan = plan_shot(view, cue_ball, &goal, self.settings.throw_factor, &mut self.rng);
         let mut aim = Aim::along(plan.direction);
         let over_rail = (self.clearance)(cue_ball, aim.azimuth_rad);
-        aim.elevation_rad = hold::elevation(view, cue_ball, plan.direction, over_rail);
+        // It has thought of no other shot.
+        aim.elevation_rad =
+            hold::elevation(view, cue_ball, &aim, over_rail).unwrap_or(hold::ELEVATION_MAX_RAD);
         let speed_m_s = hold::tip_speed(plan.speed_m_s, aim.elevation_rad);
         let call = call(&plan, turn.calls);
         self.plan = Some(plan);

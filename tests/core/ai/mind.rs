@@ -239,8 +239,9 @@ fn without_a_pot_the_ball_is_met_and_a_safety_called() {
 fn a_ball_in_hand_is_put_where_the_next_shot_is_easy() {
     let balls =
         [(3, DVec2::new(1.0, 0.4)), (8, DVec2::new(-0.8, -0.3)), (9, DVec2::new(-1.0, 0.4))];
-    for (in_hand, zone) in
-        [(BallInHand::Anywhere, Zone::Anywhere), (BallInHand::Kitchen, Zone::Kitchen)]
+    // From behind the head string each way to the 3 is two metres long.
+    for (in_hand, zone, easy) in
+        [(BallInHand::Anywhere, Zone::Anywhere, 0.9), (BallInHand::Kitchen, Zone::Kitchen, 0.75)]
     {
         let mind = mind(Level::Champion, 1.0, 1000);
         let question = task(TaskKind::Place(zone), &balls, in_hand);
@@ -255,7 +256,7 @@ fn a_ball_in_hand_is_put_where_the_next_shot_is_easy() {
         with_cue.push((0, spots[0]));
         let next = task(TaskKind::Shoot, &with_cue, BallInHand::None);
         let next = mind.deliberate(&next, &Inline);
-        assert!(0.9 < shot(&next).success, "{zone:?} {:?}", shot(&next));
+        assert!(easy < shot(&next).success, "{zone:?} {:?}", shot(&next));
     }
 }
 

@@ -3,7 +3,10 @@
 use super::{BED, R};
 use glam::{DVec2, DVec3, dvec3};
 use hapticbillard::ai::{Stroke, approach, resting_pose, withdrawal};
-use hapticbillard::cue::{Aim, CuePath, CuePose, OFFSET_LIMIT, TIP_RADIUS_M, elevation_over_balls};
+use hapticbillard::cue::{
+    Aim, BUTT_RADIUS_M, CUE_LENGTH_M, CuePath, CuePose, OFFSET_LIMIT, SHAFT_RADIUS_M, TIP_RADIUS_M,
+    elevation_over_balls,
+};
 use hapticbillard::ids::PlayerId;
 
 const BALL: DVec3 = DVec3::new(-0.4, 0.2, R);
@@ -161,20 +164,29 @@ fn offsets_move_the_contact_to_the_right_and_up() {
 
 #[test]
 fn butt_is_raised_until_the_shaft_clears_the_balls_behind() {
-    let cue_ball = DVec2::ZERO;
-    let over = |ball| elevation_over_balls(cue_ball, DVec2::X, [ball], R);
-    assert_eq!(over(DVec2::new(0.5, 0.0)), 0.0, "in front");
-    assert_eq!(over(DVec2::new(-0.5, 0.06)), 0.0, "beside");
-    for ball in [DVec2::new(-2.0 * R, 0.0), DVec2::new(-0.15, 0.02), DVec2::new(-0.9, -0.03)] {
-        let elevation_rad = over(ball);
-        assert!(elevation_rad > 0.0);
-        // Walk along the shaft and measure.
-        let back = -Aim { elevation_rad, ..Aim::default() }.direction();
-        let centre = ball.extend(R);
-        let nearest = (0..15_000)
-            .map(|i| (DVec3::Z * R + back * (f64::from(i) * 1e-4)).distance(centre))
-            .fold(f64::INFINITY, f64::min);
-        assert!(nearest > R + TIP_RADIUS_M, "{ball}: {nearest}");
-        assert!(nearest < R + TIP_RADIUS_M + 0.005, "{ball}: not steeper than needed");
+    let over = |ball: DVec2, aim: &Aim| elevation_over_balls(DVec2::ZERO, aim, [ball], R);
+    assert_eq!(over(DVec2::new(0.5, 0.0), &Aim::default()), 0.0, "in front");
+    assert_eq!(over(DVec2::new(-0.5, 0.06), &Aim::default()), 0.0, "beside");
+    let offsets = [(0.0, 0.0), (0.0, -0.4), (0.0, 0.2), (0.3, 0.0), (-0.3, -0.3)];
+    for (side_offset, height_offset) in offsets {
+        for ball in [DVec2::new(-2.5 * R, 0.0), DVec2::new(-0.15, 0.02), DVec2::new(-0.9, -0.03)] {
+            let level = Aim { side_offset, height_offset, ..Aim::default() };
+            let aim = Aim { elevation_rad: over(ball, &level), ..level };
+            // Walk along the shaft and measure.
+            let tip = aim.tip_at_contact(DVec3::Z * R, R);
+            let gaps = (0..14_500).map(|i| {
+                let back = f64::from(i) * 1e-4;
+                let radius =
+                    SHAFT_RADIUS_M + back / CUE_LENGTH_M * (BUTT_RADIUS_M - SHAFT_RADIUS_M);
+                let apart = (tip - aim.direction() * back).distance(ball.extend(R));
+                apart - R - radius.max(TIP_RADIUS_M)
+            });
+            let least = gaps.fold(f64::INFINITY, f64::min);
+            assert!(least > 0.0, "{ball} {aim:?}: {least}");
+            assert!(
+                least < 0.005 || aim.elevation_rad == 0.0,
+                "{ball} {aim:?}: not steeper than needed"
+            );
+        }
     }
 }

@@ -4,6 +4,7 @@ pub mod haply_service;
 
 use hapticbillard::ai::{Player, PlayerSettings};
 use hapticbillard::ball::POOL_RADIUS_M;
+use hapticbillard::cue::Aim;
 use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::PlayerId;
@@ -31,7 +32,9 @@ impl MockHand {
     pub fn new(player: PlayerId, seed: u64, table: &Arc<Table>) -> Self {
         let settings = PlayerSettings::paper(seed, Profile::Standard);
         let rails = table.clone();
-        let clearance = Arc::new(move |at, azimuth| rails.clearance_elevation(at, azimuth));
+        let clearance = Arc::new(move |at, azimuth_rad| {
+            rails.clearance_elevation(at, &Aim { azimuth_rad, ..Aim::default() })
+        });
         let (bed, pockets) = (table.bed.unwrap(), table.pockets.clone());
         let mind = Player::new(player, settings, bed, pockets, POOL_RADIUS_M, clearance);
         MockHand { mind, intended: Vec::new(), wake: None, delivered: None }

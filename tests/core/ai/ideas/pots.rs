@@ -28,8 +28,8 @@ impl<'a> Pot<'a> {
         view: &'a TableView2d,
         idea: &'a Idea,
     ) -> Self {
-        let azimuth_rad = Aim::along(idea.direction).azimuth_rad;
-        let clearance = parlour.table.clearance_elevation(view.cue_ball.unwrap(), azimuth_rad);
+        let aim = Aim::along(idea.direction);
+        let clearance = parlour.table.clearance_elevation(view.cue_ball.unwrap(), &aim);
         let speed_m_s = (1.35 * idea.speed_least_m_s).min(4.5);
         Pot { start, view, idea, speed_m_s, elevation_rad: clearance.max(0.035) }
     }
