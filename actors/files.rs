@@ -196,6 +196,13 @@ pub fn recordings_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("recordings"))
 }
 
+/// The file of what a player has set.
+pub fn settings_file() -> Result<PathBuf, Error> {
+    directories::ProjectDirs::from("", "", "hapticbillard")
+        .map(|folders| folders.config_dir().join("settings.toml"))
+        .ok_or(Error::NoHome)
+}
+
 /// What the processor of this machine calls itself, for reports of run time.
 pub fn processor_name() -> String {
     let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

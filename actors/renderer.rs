@@ -4,19 +4,27 @@
 //! ([`crate::event_manager::Sink`]), the world and the hand's view through slots, and what devices
 //! say goes out through a channel. What is drawn is decided by the core, `hapticbillard::renderer`.
 
+mod desk;
+
 mod felt;
 
 mod heard;
 
 mod hud;
 
+mod keys;
+
 mod materials;
+
+mod menu;
 
 mod offscreen;
 
 mod outbox;
 
 mod pointer;
+
+mod running;
 
 mod stage;
 
@@ -29,8 +37,9 @@ mod window;
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
 pub use offscreen::{pixels, written};
+pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
-pub use window::{NoWindow, Ports, WindowSetup, show};
+pub use window::{Backdrop, Host, NoWindow, WindowSetup, show};
 
 use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;

@@ -47,6 +47,8 @@ pub mod validation;
 
 pub mod input;
 
+pub mod menu;
+
 pub mod sound;
 
 pub mod renderer;

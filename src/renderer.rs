@@ -16,6 +16,8 @@ mod scoreboard;
 
 mod hud;
 
+mod menu_panel;
+
 mod words;
 
 mod felt;
@@ -36,6 +38,7 @@ pub use felt_aim::aimed_by_stylus;
 pub use felt_eye::FeltEye;
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, BallSet, ball_look};
+pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
 pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};

@@ -25,6 +25,15 @@ pub const SCENES: &[(&str, &str)] = &[
     ("haptic_touch", include_str!("../config/scenes/haptic_touch.toml")),
 ];
 
+/// The pages of menus, by name: the text of `config/menus/NAME.toml`.
+pub const MENUS: &[(&str, &str)] = &[
+    ("main", include_str!("../config/menus/main.toml")),
+    ("mode", include_str!("../config/menus/mode.toml")),
+    ("options", include_str!("../config/menus/options.toml")),
+    ("pause", include_str!("../config/menus/pause.toml")),
+    ("over", include_str!("../config/menus/over.toml")),
+];
+
 /// The meshes of scenes, by file name: the text of `config/scenes/NAME`.
 pub const MESHES: &[(&str, &str)] =
     &[("minigolf.obj", include_str!("../config/scenes/minigolf.obj"))];

@@ -4,6 +4,8 @@
 mod felt;
 #[cfg(feature = "renderer")]
 mod in_window;
+#[cfg(feature = "renderer")]
+mod kept_settings;
 
 use super::{Driver, Status, positive};
 use clap::Args;
@@ -24,11 +26,13 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 const EXAMPLE: &str = "\
-Without a display it says so and plays eight_ball_headless with a live score. Every game is
-recorded in the user's data folder, where the last 20 are kept.
+Without a scene or a game the main menu opens; Escape opens a menu in a game. Without a display it
+says so and plays eight_ball_headless with a live score. Every game is recorded in the user's data
+folder, where the last 20 are kept; what is set in the menus stands in settings.toml in the user's
+configuration folder.
 
 Examples:
-  hapticbillard                              the same as: hapticbillard play --scene eight_ball
+  hapticbillard                              the main menu
   hapticbillard play --scene training
   hapticbillard play --game wpa-eight-ball
   hapticbillard play --seed 3 --record game.jsonl
@@ -39,9 +43,9 @@ Examples:
 #[derive(Debug, Clone, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct PlayArgs {
-    /// A shipped scene (see `scenes`) or a scene file.
-    #[arg(long, value_name = "SCENE", default_value = "eight_ball")]
-    pub scene: String,
+    /// Begins at once with a shipped scene (see `scenes`) or a scene file.
+    #[arg(long, value_name = "SCENE")]
+    pub scene: Option<String>,
 
     /// What is played, with its rack, in place of the scene's game; `rules --help` lists all.
     #[arg(long, value_name = "GAME")]
@@ -80,16 +84,21 @@ pub struct PlayArgs {
 /// How many games are kept in the data folder.
 const KEPT: usize = 20;
 
+/// The scene of a game about which only other things are said.
+const USUAL: &str = "eight_ball";
 /// The scene that is played where there is no window.
 const HEADLESS: &str = "eight_ball_headless";
 
 /// Plays.
 pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
-    let stage = stage(args, &args.scene)?;
-    if stage.scene.renderer.is_none() {
-        return play_without_window(args, &stage, out);
+    let stage = match args.scene.as_deref() {
+        None if args.opens_menu() => None,
+        scene => Some(stage(args, scene.unwrap_or(USUAL))?),
+    };
+    if let Some(stage) = stage.as_ref().filter(|stage| stage.scene.renderer.is_none()) {
+        return play_without_window(args, stage, out);
     }
-    match play_in_window(args, &stage, out)? {
+    match play_in_window(args, stage.as_ref(), out)? {
         Ok(status) => Ok(status),
         Err(why) => {
             eprintln!("{why}: {HEADLESS} is played without a window");
@@ -98,17 +107,30 @@ pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
     }
 }
 
+impl PlayArgs {
+    /// Nothing is said about a single game.
+    fn opens_menu(&self) -> bool {
+        let PlayArgs { scene, game, seed, record, record_device, telemetry, .. } = self;
+        scene.is_none()
+            && game.is_none()
+            && seed.is_none()
+            && record.is_none()
+            && record_device.is_none()
+            && telemetry.is_none()
+    }
+}
+
 fn stage(args: &PlayArgs, scene: &str) -> Result<Stage, Error> {
     let stage = Stage::new(&load_scene(scene)?, scene)?.for_game(args.game)?;
     Ok(stage.with(Overrides { game: args.game, seed: args.seed, ..Overrides::default() }))
 }
 
-/// Where a game is recorded: where the player says, or into the data folder.
-fn recording(args: &PlayArgs) -> Option<PathBuf> {
+/// Where a game is recorded: the first one where the player says, others into the data folder.
+fn recording(args: &PlayArgs, is_first: bool) -> Option<PathBuf> {
     if args.no_record {
         return None;
     }
-    if args.record.is_some() {
+    if is_first && args.record.is_some() {
         return args.record.clone();
     }
     match recordings_folder() {
@@ -122,7 +144,7 @@ fn recording(args: &PlayArgs) -> Option<PathBuf> {
 
 /// Deletes old recordings, if this one went into the data folder.
 fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
-    if args.record.is_some() {
+    if path == args.record.as_ref() {
         return;
     }
     if let Some(folder) = path.and_then(|path| path.parent())
@@ -162,7 +184,7 @@ fn play_without_window(
         let problem = "without a window no haptic device is felt";
         return Err(Error::input("--telemetry", problem, "play a scene with [haptic] in a window"));
     }
-    let record = recording(args);
+    let record = recording(args, true);
     let names: Vec<String> = stage.scene.players.iter().map(|player| player.name.clone()).collect();
     let how = Headless {
         driver: args.driver.into(),
@@ -236,7 +258,7 @@ impl Participant for LiveScore {
 #[cfg(not(feature = "renderer"))]
 fn play_in_window(
     _: &PlayArgs,
-    _: &Stage,
+    _: Option<&Stage>,
     _: &mut dyn Write,
 ) -> Result<Result<Status, String>, Error> {
     Ok(Err("this build has no window".into()))

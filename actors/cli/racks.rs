@@ -78,6 +78,7 @@ impl Racks<'_> {
             first_player: Some(PlayerId(1 + (rack % 2) as u8)),
             players: self.players.clone(),
             noise: self.noise,
+            ..Overrides::default()
         })
     }
 

@@ -45,6 +45,11 @@ impl HeardScreen {
         self.setup.listener.write(Listener::looking(camera.eye.as_vec3(), forward, glam::Vec3::Z));
     }
 
+    /// The volume is so much of what the scene says.
+    pub fn set(&self, share: f32) {
+        self.setup.knobs.set(share);
+    }
+
     /// A key goes down at `now_s` on the window's clock; says whether it is one for the volume.
     pub fn turn(&mut self, key: Key, now_s: f64) -> bool {
         match key {

@@ -12,7 +12,7 @@ const PANEL: Color32 = Color32::from_rgba_premultiplied(8, 9, 11, 190);
 pub(super) const TEXT: Color32 = Color32::from_rgb(236, 234, 226);
 pub(super) const FAINT: Color32 = Color32::from_rgb(176, 174, 166);
 pub(super) const ACTIVE: Color32 = Color32::from_rgb(255, 205, 96);
-const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
+pub(super) const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
 
 /// Draws the labels of a picture and the display over a window of the painter's size.
 pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
@@ -39,7 +39,9 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     if let Some(panel) = &hud.thoughts {
         pen.thoughts(panel, if hud.seats.len() < 2 { 14.0 } else { 98.0 });
     }
-    if let Some((title, rows)) = &hud.help {
+    if let Some(menu) = &hud.menu {
+        pen.menu(menu);
+    } else if let Some((title, rows)) = &hud.help {
         pen.help(title, rows);
     } else if let Some((title, hint)) = &hud.banner {
         pen.banner(title, hint);

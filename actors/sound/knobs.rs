@@ -78,9 +78,13 @@ impl Knobs {
     /// A step louder, or softer; whoever turns it wants to hear it.
     pub fn turn(&self, is_louder: bool) {
         let step = if is_louder { STEP } else { -STEP };
+        self.set(self.share() + step);
+    }
+
+    /// So much of what the scene says, as far as a mixer plays so loud.
+    pub fn set(&self, share: f32) {
         // In whole steps, so that up and down lead back.
-        let share = ((self.share() + step) / STEP).round() * STEP;
-        // Where a mixer plays no louder, in whole steps too.
+        let share = (share / STEP).round() * STEP;
         let most = (SHARE_MAX.min(VOLUME_MAX / self.scene) / STEP + 1e-3).floor() * STEP;
         self.share.store(share.clamp(0.0, most).to_bits(), Ordering::Relaxed);
         self.is_muted.store(false, Ordering::Relaxed);

@@ -1,6 +1,7 @@
 //! The head-up display: what is written over the picture, as text and numbers without places.
 
 use super::felt::FeltTool;
+use super::menu_panel::MenuPanel;
 use super::overlay::FeltPanel;
 use super::scoreboard::Scoreboard;
 use super::thoughts::ThoughtsPanel;
@@ -89,6 +90,8 @@ pub struct Hud {
     pub felt: Option<FeltPanel>,
     /// What a computer player thought.
     pub thoughts: Option<ThoughtsPanel>,
+    /// The menu over everything else.
+    pub menu: Option<MenuPanel>,
 }
 
 impl Hud {

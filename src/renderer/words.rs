@@ -11,11 +11,20 @@ pub struct Words {
 }
 
 impl Words {
-    /// The words of a language.
+    /// The words over the picture of a game.
     pub fn new(language: Language) -> Self {
+        Self::of("hud", language)
+    }
+
+    /// The words of the menus.
+    pub fn of_menus(language: Language) -> Self {
+        Self::of("menu", language)
+    }
+
+    fn of(section: &str, language: Language) -> Self {
         // The file is compiled in and a test reads it: it cannot fail on a user's machine.
         let file: toml::Table = language.file().parse().unwrap_or_default();
-        let table = file.get("hud").and_then(toml::Value::as_table).cloned().unwrap_or_default();
+        let table = file.get(section).and_then(toml::Value::as_table).cloned().unwrap_or_default();
         let text = |row: &toml::Value, key: &str| {
             row.get(key).and_then(toml::Value::as_str).unwrap_or_default().to_string()
         };

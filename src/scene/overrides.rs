@@ -17,6 +17,9 @@ pub struct Overrides {
     pub first_player: Option<PlayerId>,
     /// Who plays, from player 1 on; empty: the scene's own.
     pub players: Vec<Entrant>,
+    /// What they are called, from player 1 on; empty: as in the scene.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
     /// Noise of all computers' strokes, in multiples of the Computer Pool Olympiad's, unless a
     /// player has one of its own.
     pub noise: Option<f64>,
@@ -43,6 +46,9 @@ impl Overrides {
         }
         for (section, entrant) in scene.players.iter_mut().zip(&self.players) {
             entrant.apply(section);
+        }
+        for (section, name) in scene.players.iter_mut().zip(&self.names) {
+            section.name.clone_from(name);
         }
     }
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
-const LAYERS: [&[&str]; 16] = [
+const LAYERS: [&[&str]; 17] = [
     &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped", "one_line"],
     &["table", "rack"],
     &["physics"],
@@ -21,6 +21,7 @@ const LAYERS: [&[&str]; 16] = [
     // Cases with known answers, run on the physics and the learner.
     &["validation"],
     &["input"],
+    &["menu"],
     &["sound"],
     &["renderer"],
     &["tally"],

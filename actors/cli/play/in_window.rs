@@ -1,29 +1,39 @@
 //! A game in a window: the ports of both joined.
 
 use super::felt::{Watched, felt};
+use super::kept_settings;
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{Human, HumanView, LedHuman, RawInput};
+use hapticbillard::input::{CameraPose, Human, HumanView, LedHuman, RawInput};
+use hapticbillard::menu::{Menu, Pages, Settings};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::renderer::Radii;
+use hapticbillard::renderer::{DrawList, Radii, Words, player_names};
 use hapticbillard::replay::{RecordedInput, Recording};
 use hapticbillard::rules::Language;
+use hapticbillard::scene::Overrides;
 use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
+use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{
-    DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Watch,
+    DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Telemetry, Watch,
 };
 use hapticbillard_actors::input::{LedHand, WindowHand};
 use hapticbillard_actors::pacer::{Tempo, describe};
-use hapticbillard_actors::renderer::{HeardSetup, NoWindow, Ports, WindowSetup, show};
+use hapticbillard_actors::renderer::{
+    Backdrop, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, WindowSetup, show,
+};
 use hapticbillard_actors::runtime::{self, Felt, Heard, InputPort, Setup};
 use hapticbillard_actors::sound;
+use std::hash::{BuildHasher, Hasher};
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
+
+/// How far the table behind the main menu is to the left of the middle [m].
+const ASIDE_M: f64 = -0.55;
 
 /// Whether there is a display to open a window on.
 pub fn has_display() -> bool {
@@ -43,60 +53,206 @@ fn language() -> Language {
     }
 }
 
-/// Plays in a window, or says why there is none.
+/// Plays in a window, or says why there is none. `stage`: a game that begins at once; without it
+/// the main menu opens.
 pub fn play_in_window(
     args: &PlayArgs,
-    stage: &Stage,
+    stage: Option<&Stage>,
     out: &mut dyn Write,
 ) -> Result<Result<Status, String>, Error> {
     if !has_display() {
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
-    let record = recording(args);
-    let mut felt = felt(stage, !stage.scene.has_hand(), args.telemetry.as_deref())?;
-    let telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
-    let (record_device, speed) = (args.record_device.clone(), args.speed);
-    let finished = match shown(stage, None, felt, record.clone(), record_device, speed)? {
-        Ok(finished) => finished?,
-        Err(NoWindow(why)) => return Ok(Err(format!("no window ({why})"))),
+    let settings = kept_settings::load();
+    let fresh;
+    let (first, begins) = match stage {
+        Some(stage) => (stage, true),
+        None => {
+            fresh = stage_of(&settings, Language::English)?;
+            (&fresh, false)
+        }
     };
-    tidy_up(args, record.as_ref());
-    writeln!(out, "{}", describe(finished.end))?;
-    if let Some(telemetry) = telemetry {
-        writeln!(out, "{}", telemetry.finish()?)?;
+    let menu =
+        Menu::new(Pages::shipped().map_err(|error| RunError::Start(error.to_string()))?, settings);
+    let setup = window(first, Some(menu), Some(backdrop(first)?), begins);
+    let mut house = House {
+        args,
+        stage: first.with(first.header().overrides),
+        is_first: begins,
+        record: None,
+        recorder: None,
+        telemetry: None,
+        out,
+    };
+    match show(setup, &mut house) {
+        Ok(shown) => shown.map(|()| Ok(Status::Success)),
+        Err(NoWindow(why)) => Ok(Err(format!("no window ({why})"))),
     }
-    if let Some(path) = &record {
-        writeln!(out, "recorded: {}", path.display())?;
-    }
-    Ok(Ok(Status::Success))
 }
 
 /// Plays a recording back in a window.
 pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
-    match shown(stage, Some(recording), None, None, None, 1.0)? {
-        Ok(finished) => finished.map(|_| Status::Success).map_err(Error::from),
+    let mut replay = Replay { stage, recording: Some(recording) };
+    match show(window(stage, None, None, true), &mut replay) {
+        Ok(shown) => shown.map(|()| Status::Success),
         Err(NoWindow(why)) => {
             Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
         }
     }
 }
 
-type Shown = Result<Result<Finished, RunError>, NoWindow>;
+/// The scene of the game that is set, with who plays it.
+fn stage_of(settings: &Settings, language: Language) -> Result<Stage, Error> {
+    let name = settings.game.scene();
+    let overrides = Overrides {
+        seed: Some(new_seed()),
+        players: settings.entrants(),
+        names: player_names(settings, &Words::of_menus(language)),
+        ..Overrides::default()
+    };
+    Ok(Stage::new(&load_scene(name)?, name)?.with(overrides))
+}
 
-fn shown(
+/// No game of the menus is like another.
+fn new_seed() -> u64 {
+    std::hash::RandomState::new().build_hasher().finish()
+}
+
+/// The table of a scene as it lies before the first stroke.
+fn backdrop(stage: &Stage) -> Result<Backdrop, Error> {
+    let first = stage.simulation()?.snapshot(0.0);
+    // The menu is on the left.
+    let view = HumanView { camera: CameraPose::default().aside(ASIDE_M), ..HumanView::default() };
+    let list = DrawList::new(&first, &view, &radii(stage)?);
+    Ok(Backdrop { table: stage.table.clone(), list: Box::new(list) })
+}
+
+fn radii(stage: &Stage) -> Result<Radii, Error> {
+    let balls = stage.scene.build_balls(&stage.table)?;
+    Ok(Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_set(stage.scene.equipment().into())
+        .with_tip(stage.scene.parameters().tip_radius_m))
+}
+
+fn window(
+    stage: &Stage,
+    menu: Option<Menu>,
+    backdrop: Option<Backdrop>,
+    begins: bool,
+) -> WindowSetup {
+    let renderer = stage.scene.renderer;
+    let title = match begins {
+        true => format!("HapticBillard: {}", stage.scene.about.name),
+        false => "HapticBillard".to_string(),
+    };
+    WindowSetup {
+        title,
+        size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
+        fullscreen: renderer.is_some_and(|section| section.fullscreen),
+        language: language(),
+        stop: stop_at_interrupt(),
+        menu,
+        backdrop,
+        begins,
+    }
+}
+
+/// Runs the games of a window: what the command line asks for, then what the menus do.
+struct House<'a> {
+    args: &'a PlayArgs,
+    /// The last game, or the one to begin with.
+    stage: Stage,
+    /// The next game is the one that the command line asks for.
+    is_first: bool,
+    record: Option<PathBuf>,
+    recorder: Option<DeviceRecorder>,
+    telemetry: Option<Telemetry>,
+    out: &'a mut dyn Write,
+}
+
+impl Host for House<'_> {
+    fn prepare(
+        &mut self,
+        settings: Option<&Settings>,
+        language: Language,
+        again: bool,
+    ) -> Result<Prepared, Error> {
+        let is_first = std::mem::take(&mut self.is_first);
+        match settings.filter(|_| !again) {
+            Some(settings) => self.stage = stage_of(settings, language)?,
+            None if !is_first => {
+                let overrides = self.stage.header().overrides;
+                self.stage = self.stage.with(Overrides { seed: Some(new_seed()), ..overrides });
+            }
+            None => {}
+        }
+        let PlayArgs { telemetry, record_device, speed, .. } = self.args;
+        // What the command line wants to be written is of one game; no other writes over it.
+        let (telemetry, device) = match is_first {
+            true => (telemetry.as_deref(), record_device.clone()),
+            false => (None, None),
+        };
+        self.record = recording(self.args, is_first);
+        let mut felt = felt(&self.stage, !self.stage.scene.has_hand(), telemetry)?;
+        self.telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
+        let (prepared, recorder) =
+            prepared(&self.stage, None, felt, self.record.clone(), device, *speed)?;
+        self.recorder = recorder;
+        Ok(prepared)
+    }
+
+    fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error> {
+        if let Some(recorder) = self.recorder.take() {
+            let Recorded { readings, lost } = recorder.finish()?;
+            log::info!("recorded {readings} readings of the haptic device, {lost} lost");
+        }
+        tidy_up(self.args, self.record.as_ref());
+        let Ok(finished) = finished else { return Ok(()) };
+        writeln!(self.out, "{}", describe(finished.end))?;
+        if let Some(telemetry) = self.telemetry.take() {
+            writeln!(self.out, "{}", telemetry.finish()?)?;
+        }
+        if let Some(path) = self.record.take() {
+            writeln!(self.out, "recorded: {}", path.display())?;
+        }
+        Ok(self.out.flush()?)
+    }
+
+    fn keep(&mut self, settings: &Settings) {
+        kept_settings::keep(settings);
+    }
+}
+
+/// A recording in a window.
+struct Replay<'a> {
+    stage: &'a Stage,
+    recording: Option<Arc<Recording>>,
+}
+
+impl Host for Replay<'_> {
+    fn prepare(&mut self, _: Option<&Settings>, _: Language, _: bool) -> Result<Prepared, Error> {
+        let recording = self.recording.take();
+        Ok(prepared(self.stage, recording, None, None, None, 1.0)?.0)
+    }
+
+    fn ended(&mut self, _: &Result<Finished, RunError>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn keep(&mut self, _: &Settings) {}
+}
+
+/// A game with all that it is joined to, ready to begin; and who records its device.
+fn prepared(
     stage: &Stage,
     replay: Option<Arc<Recording>>,
     felt: Option<Watched>,
     record: Option<PathBuf>,
     record_device: Option<PathBuf>,
     speed: f64,
-) -> Result<Shown, Error> {
+) -> Result<(Prepared, Option<DeviceRecorder>), Error> {
     let mut cast = stage.cast()?;
-    let balls = stage.scene.build_balls(&stage.table)?;
-    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
-        .with_set(stage.scene.equipment().into())
-        .with_tip(stage.scene.parameters().tip_radius_m);
-    let renderer = stage.scene.renderer;
+    let radii = radii(stage)?;
     let stop = stop_at_interrupt();
     let (mut plan, watch, shown) = match felt {
         Some(Watched { plan, watch, shown, .. }) => (Some(plan), watch, Some(shown)),
@@ -104,17 +260,12 @@ fn shown(
     };
     let first = Arc::new(cast.simulation.snapshot(0.0));
     let (line, heard) = heard(stage, first.clone(), speed)?;
-    let setup = WindowSetup {
-        title: format!("HapticBillard: {}", stage.scene.about.name),
-        size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
-        fullscreen: renderer.is_some_and(|section| section.fullscreen),
+    let setup = GameSetup {
         table: stage.table.clone(),
         first,
         names: cast.names.clone(),
         game: stage.scene.rules.map(|rules| rules.game),
         speed,
-        language: language(),
-        stop: stop.clone(),
         radii: radii.clone(),
         felt: shown,
         heard,
@@ -128,7 +279,7 @@ fn shown(
     let has_cue = stage.scene.cue.is_some();
     let players = stage.scene.human_players();
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
-    let game = move |ports: Ports| {
+    let play = move |ports: Ports| {
         let Ports { raw, view, world, sink } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
@@ -180,11 +331,7 @@ fn shown(
         };
         runtime::run(cast, setup)
     };
-    let shown = show(setup, game);
-    if let Some(Recorded { readings, lost }) = recorder.map(DeviceRecorder::finish).transpose()? {
-        log::info!("recorded {readings} readings of the haptic device, {lost} lost");
-    }
-    Ok(shown)
+    Ok((Prepared { setup, play: Box::new(play) }, recorder))
 }
 
 /// What the scene asks to be heard, and the window's end of it. Without it the game is played in

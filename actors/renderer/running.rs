@@ -1,0 +1,232 @@
+//! One game beside its window: its thread, and the window's ends of what joins them.
+
+use super::felt::{FeltScreen, FeltSetup};
+use super::heard::{HeardScreen, HeardSetup};
+use super::outbox::Outbox;
+use super::stage::Stage;
+use crate::conductor::RunError;
+use crate::event_manager::Sink;
+use hapticbillard::ids::GameKind;
+use hapticbillard::input::{HumanMode, HumanView, RawInput};
+use hapticbillard::physics::Snapshot;
+use hapticbillard::renderer::{
+    DrawList, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+};
+use hapticbillard::rules::{Language, Texts};
+use hapticbillard::table::Table;
+use hapticbillard::tick::{Delivered, Finished};
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
+use std::thread::{self, JoinHandle};
+use three_d::Context;
+
+/// Reports that may wait for the hand, which empties the channel every tick; see [`Outbox`].
+const REPORTS: usize = 1024;
+/// Batches of events that may wait for a picture; what does not fit is counted as dropped.
+const MAIL: usize = 4096;
+
+/// What a window shows of a game.
+pub struct GameSetup {
+    /// The table.
+    pub table: Arc<Table>,
+    /// The balls' radii.
+    pub radii: Radii,
+    /// The world before the first tick.
+    pub first: Arc<Snapshot>,
+    /// Names of player 1 and player 2.
+    pub names: Vec<String>,
+    /// What is played, if anything.
+    pub game: Option<GameKind>,
+    /// Seconds of the game per second.
+    pub speed: f64,
+    /// The haptic device; none where a scene has none.
+    pub felt: Option<FeltSetup>,
+    /// Sound; none where a scene has none.
+    pub heard: Option<HeardSetup>,
+}
+
+/// The game's ends of what joins it with its window.
+pub struct Ports {
+    /// What devices say.
+    pub raw: flume::Receiver<RawInput>,
+    /// What the hand sees and does.
+    pub view: triple_buffer::Input<HumanView>,
+    /// The newest state of the world.
+    pub world: triple_buffer::Input<Arc<Snapshot>>,
+    /// Where events for the scoreboard go.
+    pub sink: Sink,
+}
+
+/// Plays a game on a thread of its own.
+pub type Play = Box<dyn FnOnce(Ports) -> Result<Finished, RunError> + Send>;
+
+/// A game that can begin.
+pub struct Prepared {
+    /// What is shown of it.
+    pub setup: GameSetup,
+    /// The game.
+    pub play: Play,
+}
+
+/// A game that has begun.
+pub struct Running {
+    /// What the graphics card holds of it.
+    pub stage: Stage,
+    /// What is said to it.
+    pub outbox: Outbox,
+    /// How it stands.
+    pub board: Scoreboard,
+    /// Sound, where it is heard.
+    pub heard: Option<HeardScreen>,
+    /// What the computer thinks is shown.
+    pub shows_thoughts: bool,
+    view: triple_buffer::Output<HumanView>,
+    world: triple_buffer::Output<Arc<Snapshot>>,
+    mail: flume::Receiver<Delivered>,
+    playhead: Playhead,
+    names: Vec<String>,
+    game: Option<GameKind>,
+    texts: Texts,
+    words: Words,
+    radii: Radii,
+    table: Arc<Table>,
+    felt: Option<FeltScreen>,
+    /// None when it is over.
+    thread: Option<JoinHandle<thread::Result<Result<Finished, RunError>>>>,
+}
+
+impl Running {
+    /// Begins a game; `ended` is called on its thread when it is over.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn begin(
+        prepared: Prepared,
+        context: &Context,
+        language: Language,
+        ended: impl FnOnce() + Send + 'static,
+    ) -> Result<Self, RunError> {
+        let Prepared { setup, play } = prepared;
+        let (raw_in, raw) = flume::bounded(REPORTS);
+        let (view_in, view) = triple_buffer::triple_buffer(&HumanView::default());
+        let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
+        let (mail_in, mail) = flume::bounded(MAIL);
+        let dropped = Arc::new(AtomicU64::new(0));
+        let sink = Sink { topics: Scoreboard::topics(), mail: mail_in, dropped };
+        let ports = Ports { raw, view: view_in, world: world_in, sink };
+        let thread = thread::Builder::new()
+            .name("game".into())
+            .spawn(move || {
+                let finished = panic::catch_unwind(AssertUnwindSafe(|| play(ports)));
+                ended();
+                finished
+            })
+            .map_err(|error| RunError::Start(format!("no thread for the game: {error}")))?;
+        Ok(Running {
+            stage: Stage::new(context, &setup.table),
+            outbox: Outbox::new(raw_in),
+            board: Scoreboard::new(setup.names.clone()),
+            heard: setup.heard.map(HeardScreen::new),
+            shows_thoughts: false,
+            view,
+            world,
+            mail,
+            playhead: Playhead::new(setup.first, setup.speed),
+            texts: texts(language, &setup.names, setup.game),
+            words: Words::new(language),
+            names: setup.names,
+            game: setup.game,
+            radii: setup.radii,
+            table: setup.table,
+            felt: setup.felt.map(FeltScreen::new),
+            thread: Some(thread),
+        })
+    }
+
+    /// Writes everything in another language from now on.
+    pub fn speak(&mut self, language: Language) {
+        self.texts = texts(language, &self.names, self.game);
+        self.words = Words::new(language);
+    }
+
+    /// Whether it is over.
+    pub fn is_over(&self) -> bool {
+        self.thread.is_none()
+    }
+
+    /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
+    /// before.
+    pub fn join(&mut self) -> Option<Result<Finished, RunError>> {
+        match self.thread.take()?.join() {
+            Ok(Ok(finished)) => Some(finished),
+            Ok(Err(payload)) | Err(payload) => panic::resume_unwind(payload),
+        }
+    }
+
+    /// What the player sees and does.
+    pub fn view(&mut self) -> HumanView {
+        self.view.read().clone()
+    }
+
+    /// Whether time stands still.
+    pub fn is_paused(&mut self) -> bool {
+        self.view.read().mode == HumanMode::Paused
+    }
+
+    /// Takes what happened since the last picture.
+    pub fn take_news(&mut self, now_s: f64) {
+        for delivered in self.mail.try_iter() {
+            for stamped in delivered.events.iter() {
+                self.board.hear(&stamped.event);
+            }
+        }
+        let state = self.world.read().clone();
+        self.playhead.take(&state, now_s);
+        if let Some(felt) = &mut self.felt {
+            felt.take(now_s);
+        }
+    }
+
+    /// What is drawn and written at `now_s`.
+    pub fn seen(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+        let (mut list, mut written) = self.drawn(view, now_s);
+        if let Some(insight) = self.board.insight.as_ref().filter(|_| self.shows_thoughts) {
+            draw_thoughts(insight, &self.radii, &mut list);
+            let name = self.board.name(insight.player);
+            let panel = ThoughtsPanel::new(insight, name, &self.texts, &self.words);
+            written.thoughts = Some(panel);
+        }
+        if let Some(heard) = &mut self.heard {
+            heard.listen_at(&list.camera);
+            heard.write(&mut written, &self.words, now_s);
+        }
+        (list, written)
+    }
+
+    fn drawn(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+        let (world, radii) = (self.playhead.shown(now_s), &self.radii);
+        let Some(felt) = &mut self.felt else {
+            let written = Hud::new(&self.board, view, &self.texts, &self.words);
+            return (DrawList::new(&world, view, radii), written);
+        };
+        let view = felt.view(view, &world, &self.table, radii, now_s);
+        let mut list = DrawList::new(&world, &view, radii);
+        felt.draw(&mut list);
+        let written = Hud::new(&self.board, &view, &self.texts, &self.words);
+        (list, felt.write(written, &view, &self.words))
+    }
+}
+
+fn texts(language: Language, names: &[String], game: Option<GameKind>) -> Texts {
+    let texts = Texts::new(language);
+    let texts = match names {
+        [one, two] => texts.with_names(one, two),
+        [one] => texts.with_names(one, ""),
+        _ => texts,
+    };
+    match game {
+        Some(game) => texts.for_game(game),
+        None => texts,
+    }
+}

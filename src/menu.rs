@@ -1,0 +1,14 @@
+//! The menus: pages that files describe, what they set and start, and who is where in them.
+//!
+//! A [`Menu`] is a state machine. Keys, a pointer or a script move it by [`MenuInput`]; it answers
+//! with a [`Deed`] for whoever runs the games. Pages and links stand in `config/menus/`, the words
+//! in `config/text/`; nothing here knows a window.
+
+mod page;
+pub use page::{Act, Effect, Item, Page, PageError, Pages};
+
+mod settings;
+pub use settings::{GameChoice, Range, Seat, Setting, Settings, Tongue};
+
+mod model;
+pub use model::{Deed, Menu, MenuInput};

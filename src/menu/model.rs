@@ -1,0 +1,215 @@
+//! Which page is open, which line is meant, and what becomes of it.
+
+use super::{Act, Effect, Item, Page, Pages, Range, Setting, Settings};
+use std::sync::Arc;
+
+/// What moves a menu.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MenuInput {
+    /// To the line above.
+    Up,
+    /// To the line below.
+    Down,
+    /// What is set there becomes less, or the one before.
+    Less,
+    /// It becomes more, or the next.
+    More,
+    /// The line is chosen.
+    Accept,
+    /// Back to where this page was opened from.
+    Back,
+    /// A pointer is over a line, counted from 0.
+    Over(usize),
+    /// A pointer chooses a line; `share` of the way along it, from its left [0 to 1].
+    Press {
+        /// Which line.
+        line: usize,
+        /// How far along what is set there; none beside it.
+        share: Option<f64>,
+    },
+}
+
+/// What a menu asks of whoever runs the games.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Deed {
+    /// A game begins as it is set.
+    Start,
+    /// The last game begins again.
+    Again,
+    /// The game goes on.
+    Resume,
+    /// The game ends.
+    Leave,
+    /// The program ends.
+    Quit,
+    /// Something was set.
+    Changed,
+}
+
+/// An open page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Opened {
+    page: usize,
+    focus: usize,
+}
+
+/// Menus: what is open, and what is set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Menu {
+    pages: Arc<Pages>,
+    /// The page that is seen is the last; empty while nothing is open.
+    opened: Vec<Opened>,
+    /// What is set.
+    pub settings: Settings,
+    /// What went wrong with the last deed, until the next.
+    pub notice: Option<String>,
+}
+
+impl Menu {
+    /// Menus with nothing open.
+    pub fn new(pages: Pages, settings: Settings) -> Self {
+        Menu { pages: Arc::new(pages), opened: Vec::new(), settings, notice: None }
+    }
+
+    /// Opens a page in place of whatever is open.
+    pub fn open(&mut self, name: &str) {
+        self.opened.clear();
+        self.enter(name);
+    }
+
+    /// Closes all.
+    pub fn close(&mut self) {
+        self.opened.clear();
+        self.notice = None;
+    }
+
+    /// Whether a page is seen.
+    pub fn is_open(&self) -> bool {
+        !self.opened.is_empty()
+    }
+
+    /// The page that is seen, and which of its lines is meant.
+    pub fn seen(&self) -> Option<(&Page, usize)> {
+        let last = self.opened.last()?;
+        Some((self.pages.at(last.page)?, last.focus))
+    }
+
+    /// Whether a line can be chosen.
+    pub fn is_live(&self, item: &Item) -> bool {
+        match item.effect {
+            Effect::Sets(setting) => self.settings.is_of_use(setting),
+            Effect::Opens(_) | Effect::Does(_) => true,
+        }
+    }
+
+    /// Takes one input; nothing happens while no page is open.
+    pub fn hear(&mut self, input: MenuInput) -> Option<Deed> {
+        let (page, focus) = self.seen()?;
+        let (count, effect) = (page.items.len(), page.items.get(focus).map(|i| i.effect.clone()));
+        match input {
+            MenuInput::Up => self.step(count, count - 1),
+            MenuInput::Down => self.step(count, 1),
+            MenuInput::Less => return self.turn(effect, false),
+            MenuInput::More => return self.turn(effect, true),
+            MenuInput::Accept => return self.choose(effect?),
+            MenuInput::Back => return self.back(),
+            MenuInput::Over(line) => self.mean(line),
+            MenuInput::Press { line, share } => return self.press(line, share),
+        }
+        None
+    }
+
+    fn enter(&mut self, name: &str) {
+        let Some(page) = self.pages.place_of(name) else { return };
+        self.opened.push(Opened { page, focus: 0 });
+    }
+
+    /// To the next line that can be chosen, `by` lines on at a time.
+    fn step(&mut self, count: usize, by: usize) {
+        let Some((page, focus)) = self.seen() else { return };
+        let lines = (1..=count).map(|n| (focus + n * by) % count);
+        let next = lines.into_iter().find(|line| self.is_live(&page.items[*line]));
+        if let (Some(next), Some(last)) = (next, self.opened.last_mut()) {
+            last.focus = next;
+        }
+    }
+
+    /// A line is meant, if it can be chosen.
+    fn mean(&mut self, line: usize) {
+        let is_live =
+            self.seen().and_then(|(page, _)| page.items.get(line)).is_some_and(|i| self.is_live(i));
+        if let Some(last) = self.opened.last_mut().filter(|_| is_live) {
+            last.focus = line;
+        }
+    }
+
+    fn press(&mut self, line: usize, share: Option<f64>) -> Option<Deed> {
+        self.mean(line);
+        let (page, focus) = self.seen()?;
+        // A line that cannot be chosen.
+        let effect = page.items.get(line).filter(|_| focus == line)?.effect.clone();
+        match (&effect, share) {
+            (Effect::Sets(setting), Some(share)) => self.slide(*setting, share),
+            _ => self.choose(effect),
+        }
+    }
+
+    /// Puts a setting as far along as a pointer is.
+    fn slide(&mut self, setting: Setting, share: f64) -> Option<Deed> {
+        let before = self.settings.place(setting);
+        match Settings::range(setting) {
+            Range::Scale(last) => {
+                self.settings.put(setting, (share.clamp(0.0, 1.0) * last as f64).round() as usize);
+            }
+            Range::Choice(_) => return self.turn(Some(Effect::Sets(setting)), 0.5 <= share),
+        }
+        (before != self.settings.place(setting)).then_some(Deed::Changed)
+    }
+
+    fn turn(&mut self, effect: Option<Effect>, is_more: bool) -> Option<Deed> {
+        let Some(Effect::Sets(setting)) = effect else { return None };
+        let before = self.settings.place(setting);
+        let after = match (Settings::range(setting), is_more) {
+            (Range::Choice(count), true) => (before + 1) % count,
+            (Range::Choice(count), false) => (before + count - 1) % count,
+            (Range::Scale(last), true) => (before + 1).min(last),
+            (Range::Scale(_), false) => before.saturating_sub(1),
+        };
+        self.settings.put(setting, after);
+        (before != after).then_some(Deed::Changed)
+    }
+
+    fn choose(&mut self, effect: Effect) -> Option<Deed> {
+        self.notice = None;
+        match effect {
+            Effect::Opens(name) => {
+                self.enter(&name);
+                None
+            }
+            Effect::Sets(_) => self.turn(Some(effect), true),
+            Effect::Does(Act::Back) => self.back(),
+            Effect::Does(Act::Start) => Some(Deed::Start),
+            Effect::Does(Act::Again) => Some(Deed::Again),
+            Effect::Does(Act::Resume) => Some(Deed::Resume),
+            Effect::Does(Act::Leave) => Some(Deed::Leave),
+            Effect::Does(Act::Quit) => Some(Deed::Quit),
+        }
+    }
+
+    /// To the page before; from the first one, the way out that it offers.
+    fn back(&mut self) -> Option<Deed> {
+        self.notice = None;
+        if 1 < self.opened.len() {
+            self.opened.pop();
+            return None;
+        }
+        let (page, _) = self.seen()?;
+        let offers = |act| page.items.iter().any(|item| item.effect == Effect::Does(act));
+        match (offers(Act::Resume), offers(Act::Leave)) {
+            (true, _) => Some(Deed::Resume),
+            (false, true) => Some(Deed::Leave),
+            // Nobody ends the program by accident.
+            (false, false) => None,
+        }
+    }
+}

@@ -1,0 +1,341 @@
+//! What a player sets, and keeps from game to game.
+
+use crate::ids::PlayerId;
+use crate::one_line::one_line;
+use crate::rules::Language;
+use crate::scene::{Entrant, PlayerKind, STRENGTH_MAX, STRENGTH_USUAL};
+use serde::{Deserialize, Serialize};
+
+/// Steps of what is set in steps.
+const STRENGTH_STEP: u8 = 5;
+const VOLUME_STEP: u16 = 10;
+const VOLUME_MAX: u16 = 200;
+const MOUSE_STEP: u16 = 25;
+const MOUSE_MAX: u16 = 400;
+
+/// Everything that is set.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// What is played.
+    pub game: GameChoice,
+    /// Who plays first.
+    pub player_1: Seat,
+    /// How strong, from 0 to 100, if that is a computer.
+    pub strength_1: u8,
+    /// Who plays second.
+    pub player_2: Seat,
+    /// How strong.
+    pub strength_2: u8,
+    /// The language of everything written.
+    pub language: Tongue,
+    /// Volume [% of what the scene says].
+    pub volume_percent: u16,
+    /// How far everything moves with the mouse [% of the usual].
+    pub mouse_percent: u16,
+    /// The window fills the screen.
+    pub full_screen: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            game: GameChoice::WpaEightBall,
+            player_1: Seat::Human,
+            strength_1: STRENGTH_USUAL,
+            player_2: Seat::Computer,
+            strength_2: STRENGTH_USUAL,
+            language: Tongue::System,
+            volume_percent: 100,
+            mouse_percent: 100,
+            full_screen: false,
+        }
+    }
+}
+
+/// A game, and the shipped scene that it is played in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GameChoice {
+    /// Eight-ball by the world's rules.
+    WpaEightBall,
+    /// Eight-ball as in the paper.
+    EightBall,
+    /// Nine-ball.
+    NineBall,
+    /// Straight pool.
+    Straight,
+    /// Snooker.
+    Snooker,
+    /// Three-cushion carom.
+    ThreeCushion,
+    /// Free carom.
+    FreeCarom,
+    /// A rack without rules.
+    FreePlay,
+    /// Without fouls; shots are taken back.
+    Training,
+}
+
+impl GameChoice {
+    /// All, in the order in which they are offered.
+    pub const ALL: [GameChoice; 9] = [
+        GameChoice::WpaEightBall,
+        GameChoice::EightBall,
+        GameChoice::NineBall,
+        GameChoice::Straight,
+        GameChoice::Snooker,
+        GameChoice::ThreeCushion,
+        GameChoice::FreeCarom,
+        GameChoice::FreePlay,
+        GameChoice::Training,
+    ];
+
+    /// The shipped scene.
+    pub fn scene(self) -> &'static str {
+        match self {
+            GameChoice::WpaEightBall => "wpa_eight_ball",
+            GameChoice::EightBall => "eight_ball",
+            GameChoice::NineBall => "nine_ball",
+            GameChoice::Straight => "straight",
+            GameChoice::Snooker => "snooker",
+            GameChoice::ThreeCushion => "three_cushion",
+            GameChoice::FreeCarom => "free_carom",
+            GameChoice::FreePlay => "free_play",
+            GameChoice::Training => "training",
+        }
+    }
+
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        // Scenes are named after what is played there.
+        self.scene()
+    }
+
+    /// How many play.
+    pub fn seats(self) -> usize {
+        match self {
+            GameChoice::FreePlay | GameChoice::Training => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// Who decides for a player.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Seat {
+    /// Somebody at mouse, keyboard or stylus.
+    Human,
+    /// A computer.
+    Computer,
+}
+
+impl Seat {
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        match self {
+            Seat::Human => "human",
+            Seat::Computer => "computer",
+        }
+    }
+}
+
+/// A language, or the one that the system speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tongue {
+    /// As the system.
+    System,
+    /// English.
+    English,
+    /// German.
+    German,
+}
+
+impl Tongue {
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        match self {
+            Tongue::System => "system",
+            Tongue::English => "english",
+            Tongue::German => "german",
+        }
+    }
+
+    /// The language, where the system's is this one.
+    pub fn language(self, system: Language) -> Language {
+        match self {
+            Tongue::System => system,
+            Tongue::English => Language::English,
+            Tongue::German => Language::German,
+        }
+    }
+}
+
+/// One thing that can be set, by the name that pages give it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Setting {
+    /// What is played.
+    Game,
+    /// Who plays first.
+    #[serde(rename = "player_1")]
+    PlayerOne,
+    /// How strong a computer there is.
+    #[serde(rename = "strength_1")]
+    StrengthOne,
+    /// Who plays second.
+    #[serde(rename = "player_2")]
+    PlayerTwo,
+    /// How strong a computer there is.
+    #[serde(rename = "strength_2")]
+    StrengthTwo,
+    /// The language.
+    Language,
+    /// The volume.
+    Volume,
+    /// How far everything moves with the mouse.
+    MouseSpeed,
+    /// Whether the window fills the screen.
+    FullScreen,
+}
+
+/// What a setting can be: numbered places, from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Range {
+    /// So many values beside each other, that go round.
+    Choice(usize),
+    /// A scale up to this place.
+    Scale(usize),
+}
+
+const SEATS: [Seat; 2] = [Seat::Human, Seat::Computer];
+const TONGUES: [Tongue; 3] = [Tongue::System, Tongue::English, Tongue::German];
+
+/// Where `value` stands in a list; at its front if it does not.
+fn place<T: PartialEq>(list: &[T], value: &T) -> usize {
+    list.iter().position(|one| one == value).unwrap_or(0)
+}
+
+impl Settings {
+    /// Reads what [`Settings::to_toml`] wrote; what is missing is as usual.
+    ///
+    /// # Errors
+    /// One line: what is wrong, and where.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| one_line(error.to_string().trim_end(), 400))
+    }
+
+    /// As TOML.
+    pub fn to_toml(&self) -> String {
+        // Numbers, names and a yes or no: nothing that TOML has not.
+        toml::to_string(self).unwrap_or_default()
+    }
+
+    /// What can be set.
+    pub fn range(setting: Setting) -> Range {
+        match setting {
+            Setting::Game => Range::Choice(GameChoice::ALL.len()),
+            Setting::PlayerOne | Setting::PlayerTwo => Range::Choice(SEATS.len()),
+            Setting::StrengthOne | Setting::StrengthTwo => {
+                Range::Scale((STRENGTH_MAX / STRENGTH_STEP).into())
+            }
+            Setting::Language => Range::Choice(TONGUES.len()),
+            Setting::Volume => Range::Scale((VOLUME_MAX / VOLUME_STEP).into()),
+            // From one step on: a mouse that moves nothing is of no use.
+            Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
+            Setting::FullScreen => Range::Choice(2),
+        }
+    }
+
+    /// Which place of its range a setting has.
+    pub fn place(&self, setting: Setting) -> usize {
+        match setting {
+            Setting::Game => place(&GameChoice::ALL, &self.game),
+            Setting::PlayerOne => place(&SEATS, &self.player_1),
+            Setting::StrengthOne => (self.strength_1.min(STRENGTH_MAX) / STRENGTH_STEP).into(),
+            Setting::PlayerTwo => place(&SEATS, &self.player_2),
+            Setting::StrengthTwo => (self.strength_2.min(STRENGTH_MAX) / STRENGTH_STEP).into(),
+            Setting::Language => place(&TONGUES, &self.language),
+            Setting::Volume => (self.volume_percent.min(VOLUME_MAX) / VOLUME_STEP).into(),
+            Setting::MouseSpeed => {
+                (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
+            }
+            Setting::FullScreen => self.full_screen.into(),
+        }
+    }
+
+    /// Puts a setting at a place of its range; beyond it, at its end.
+    pub fn put(&mut self, setting: Setting, place: usize) {
+        let last = match Self::range(setting) {
+            Range::Choice(count) => count.saturating_sub(1),
+            Range::Scale(last) => last,
+        };
+        let place = place.min(last);
+        // No scale has more places than a byte holds.
+        let steps = u8::try_from(place).unwrap_or(u8::MAX);
+        match setting {
+            Setting::Game => self.game = GameChoice::ALL[place],
+            Setting::PlayerOne => self.player_1 = SEATS[place],
+            Setting::StrengthOne => self.strength_1 = steps.saturating_mul(STRENGTH_STEP),
+            Setting::PlayerTwo => self.player_2 = SEATS[place],
+            Setting::StrengthTwo => self.strength_2 = steps.saturating_mul(STRENGTH_STEP),
+            Setting::Language => self.language = TONGUES[place],
+            Setting::Volume => self.volume_percent = u16::from(steps) * VOLUME_STEP,
+            Setting::MouseSpeed => self.mouse_percent = (u16::from(steps) + 1) * MOUSE_STEP,
+            Setting::FullScreen => self.full_screen = place == 1,
+        }
+    }
+
+    /// Whether a setting means anything beside the others.
+    pub fn is_of_use(&self, setting: Setting) -> bool {
+        let two = self.game.seats() == 2;
+        match setting {
+            Setting::PlayerOne => two,
+            Setting::StrengthOne => two && self.player_1 == Seat::Computer,
+            Setting::PlayerTwo => two,
+            Setting::StrengthTwo => two && self.player_2 == Seat::Computer,
+            _ => true,
+        }
+    }
+
+    /// Who plays the game that is set, from player 1 on. Who plays alone is a person.
+    pub fn entrants(&self) -> Vec<Entrant> {
+        if self.game.seats() == 1 {
+            return vec![PlayerKind::Human.into()];
+        }
+        let seats = [(self.player_1, self.strength_1), (self.player_2, self.strength_2)];
+        let kind = |(seat, strength)| match seat {
+            Seat::Human => PlayerKind::Human,
+            Seat::Computer => PlayerKind::Computer(strength),
+        };
+        seats.map(|seat| kind(seat).into()).to_vec()
+    }
+
+    /// Who sits at a place.
+    pub fn seat(&self, player: PlayerId) -> Seat {
+        match player.index() {
+            0 => self.player_1,
+            _ => self.player_2,
+        }
+    }
+
+    /// How strong a computer there is.
+    pub fn strength(&self, player: PlayerId) -> u8 {
+        match player.index() {
+            0 => self.strength_1,
+            _ => self.strength_2,
+        }
+    }
+
+    /// What a movement of the mouse is multiplied by.
+    pub fn mouse_factor(&self) -> f64 {
+        f64::from(self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
+    }
+
+    /// What the scene's volume is multiplied by.
+    pub fn volume_factor(&self) -> f32 {
+        f32::from(self.volume_percent.min(VOLUME_MAX)) / 100.0
+    }
+}
