@@ -47,6 +47,27 @@ pub fn open_lines(path: &Path) -> Result<File, Error> {
     Ok(file)
 }
 
+/// A file of text that may be missing.
+pub fn read_if_there(path: &Path) -> Result<Option<String>, Error> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(reason) => Err(Error::Read { path: path.to_path_buf(), reason }),
+    }
+}
+
+/// Puts a file that cannot be understood aside, under another name, which is returned: somebody
+/// may have written it.
+pub fn put_aside(path: &Path) -> Result<PathBuf, Error> {
+    let mut aside = path.as_os_str().to_owned();
+    aside.push(".bad");
+    let aside = PathBuf::from(aside);
+    match fs::rename(path, &aside) {
+        Ok(()) => Ok(aside),
+        Err(reason) => Err(Error::Write { path: aside, reason }),
+    }
+}
+
 /// Writes a file whole: first under another name, then renamed.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     write_whole_by(path, |file| file.write_all(bytes))

@@ -1,7 +1,7 @@
 //! What happens in a window: devices, the menu, the game, the next picture.
 
 use super::hud;
-use super::keys::{button, key, menu_input, notches};
+use super::keys::{button, key, notches};
 use super::pointer::Pointer;
 use super::running::Running;
 use super::stage::{BACKGROUND, Stage};
@@ -9,7 +9,7 @@ use super::window::{Backdrop, GameEnded, Host, WindowSetup};
 use crate::error::Error;
 use crate::pacer::StopFlag;
 use hapticbillard::input::{Button, HumanMode, Key, RawInput};
-use hapticbillard::menu::{Deed, Menu, MenuInput};
+use hapticbillard::menu::{Lobby, Order, Pointed};
 use hapticbillard::renderer::{DrawList, Hud, MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
@@ -32,22 +32,16 @@ pub(super) struct Desk<'a> {
     ended: EventLoopProxy<GameEnded>,
     stop: StopFlag,
     system: Language,
-    menu: Option<Menu>,
+    lobby: Lobby,
     words: Words,
     /// What is seen behind the main menu, and what the graphics card holds of it from when it is
     /// first needed.
     backdrop: Option<(Backdrop, Option<Stage>)>,
     game: Option<Running>,
-    /// The game was told to go on, and has not yet done so.
-    is_resuming: bool,
-    /// Whoever plays has had enough of the game.
-    is_leaving: bool,
     /// What was set and is not written yet.
     unkept: Option<Instant>,
     /// The volume that the game was last told.
     volume: Option<f32>,
-    /// The line of a menu whose scale the pointer holds.
-    dragged: Option<usize>,
     /// What went wrong with a game that no menu can tell of.
     failed: Option<Error>,
     pointer: Pointer,
@@ -56,7 +50,6 @@ pub(super) struct Desk<'a> {
     /// What the window shows now; none if it must be drawn again.
     shown: Option<(DrawList, Hud)>,
     is_focused: bool,
-    held: Vec<Key>,
 }
 
 impl<'a> Desk<'a> {
@@ -81,28 +74,24 @@ impl<'a> Desk<'a> {
             stop: setup.stop,
             system: setup.language,
             words: Words::of_menus(setup.language),
-            menu: setup.menu,
+            lobby: Lobby::new(setup.menu),
             backdrop: setup.backdrop.map(|backdrop| (backdrop, None)),
             game: None,
-            is_resuming: false,
-            is_leaving: false,
             unkept: None,
             volume: None,
-            dragged: None,
             failed: None,
             pointer: Pointer::new(),
             start: now,
             due: now,
             shown: None,
             is_focused: false,
-            held: Vec::new(),
             graphics,
         };
         desk.words = Words::of_menus(desk.language());
         if setup.begins {
             desk.begin(true)?
         } else {
-            desk.open("main")
+            desk.lobby.open_main()
         }
         Ok(desk)
     }
@@ -126,7 +115,7 @@ impl<'a> Desk<'a> {
             Event::WindowEvent { event, .. } => self.window_event(event, flow),
             Event::DeviceEvent { event: DeviceEvent::MouseMotion { delta }, .. } => {
                 if let Some(by) = self.pointer.device_moved(delta) {
-                    self.moved(by);
+                    self.moved(by, flow);
                 }
             }
             Event::UserEvent(GameEnded) => self.game_ended(flow),
@@ -155,8 +144,7 @@ impl<'a> Desk<'a> {
     fn window_event(&mut self, event: WindowEvent<'_>, flow: &mut ControlFlow) {
         match event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => {
-                self.say(RawInput::Closed);
-                flow.set_exit();
+                self.hear(RawInput::Closed, flow);
             }
             WindowEvent::Resized(size) => {
                 self.graphics.resize(size);
@@ -169,115 +157,89 @@ impl<'a> Desk<'a> {
             WindowEvent::Focused(is_focused) => {
                 self.is_focused = is_focused;
                 if !is_focused {
-                    self.held.clear();
-                    self.dragged = None;
-                    self.say(RawInput::FocusLost);
+                    self.hear(RawInput::FocusLost, flow);
                 }
             }
             WindowEvent::CursorMoved { position, .. } => {
                 match self.pointer.at(position, &self.window) {
-                    Some(by) => self.moved(by),
-                    None => self.point(flow),
+                    Some(by) => self.moved(by, flow),
+                    None => {
+                        let orders = self.lobby.point(self.pointed());
+                        self.obey(orders, flow);
+                    }
                 }
             }
             WindowEvent::MouseInput { state, button: which, .. } => {
-                if let Some(which) = button(which) {
-                    self.button(which, state == ElementState::Pressed, flow);
+                if let Some(button) = button(which) {
+                    let down = state == ElementState::Pressed;
+                    self.hear(RawInput::Button { button, down }, flow);
                 }
             }
-            WindowEvent::MouseWheel { delta, .. } if !self.is_menu_open() => {
-                self.say(RawInput::Wheel { notches: notches(delta) });
+            WindowEvent::MouseWheel { delta, .. } => {
+                self.hear(RawInput::Wheel { notches: notches(delta) }, flow);
             }
             WindowEvent::KeyboardInput { input, .. } => {
-                let down = input.state == ElementState::Pressed;
                 if let Some(key) = input.virtual_keycode.and_then(key) {
-                    self.key(key, down, flow);
+                    let down = input.state == ElementState::Pressed;
+                    self.hear(RawInput::Key { key, down }, flow);
                 }
             }
             _ => {}
         }
     }
 
-    fn say(&mut self, report: RawInput) {
-        if let Some(game) = &mut self.game {
-            game.outbox.say(report);
-        }
+    /// A device says something.
+    fn hear(&mut self, report: RawInput, flow: &mut ControlFlow) {
+        let orders = self.lobby.hear(report, self.pointed());
+        self.obey(orders, flow);
     }
 
-    fn button(&mut self, button: Button, down: bool, flow: &mut ControlFlow) {
-        if !down {
-            self.dragged = None;
-        }
-        if self.is_menu_open() {
-            if let (Button::Left, true, Some((line, share))) = (button, down, self.pointed()) {
-                self.dragged = share.map(|_| line);
-                self.hear(MenuInput::Press { line, share }, flow);
-            }
-            return;
-        }
-        let picked = if (button, down) == (Button::Left, true) { self.picked() } else { None };
-        self.say(match picked {
-            Some(option) => RawInput::Picked { option },
-            None => RawInput::Button { button, down },
-        });
+    /// The mouse moved to the right and down [pixels].
+    fn moved(&mut self, (right, down): (f64, f64), flow: &mut ControlFlow) {
+        let height = f64::from(self.window.inner_size().height.max(1));
+        self.hear(RawInput::Moved { right: right / height, up: -down / height }, flow);
     }
 
-    fn key(&mut self, key: Key, down: bool, flow: &mut ControlFlow) {
-        if self.is_menu_open() {
-            // Repeats of a held key go on along the lines.
-            if let Some(input) = menu_input(key).filter(|_| down) {
-                self.hear(input, flow);
-            }
-            return;
-        }
-        let is_over = self.game.as_ref().is_some_and(Running::is_over);
-        if is_over && down && matches!(key, Key::Escape | Key::Letter('q')) {
-            flow.set_exit();
-            return;
-        }
-        // Repeats of a held key are not reported.
-        let was_down = self.held.contains(&key);
-        if down == was_down {
-            return;
-        }
-        if down {
-            self.held.push(key);
-            let now_s = self.now_s();
-            let Some(game) = &mut self.game else { return };
-            if key == Key::Letter('i') {
-                game.shows_thoughts = !game.shows_thoughts;
-                return;
-            }
-            if game.heard.as_mut().is_some_and(|heard| heard.turn(key, now_s)) {
-                return;
-            }
-        } else {
-            self.held.retain(|held| *held != key);
-        }
-        self.say(RawInput::Key { key, down });
-    }
-
-    /// The pointer moves in the window.
-    fn point(&mut self, flow: &mut ControlFlow) {
-        if !self.is_menu_open() {
-            return;
-        }
-        let Some((line, share)) = self.pointed() else { return };
-        match self.dragged {
-            Some(dragged) if dragged == line => {
-                // Pulled along a scale; what goes round is not turned by a trembling hand.
-                let is_scale = self.panel().is_some_and(|panel| panel.lines[line].fill.is_some());
-                if is_scale && share.is_some() {
-                    self.hear(MenuInput::Press { line, share }, flow);
+    fn obey(&mut self, orders: Vec<Order>, flow: &mut ControlFlow) {
+        for order in orders {
+            match order {
+                Order::Tell(report) => self.tell(report),
+                Order::Begin { again } => {
+                    if let Err(error) = self.begin(again) {
+                        self.complain(error, flow);
+                    }
                 }
+                Order::Clear => self.game = None,
+                Order::Apply => self.changed(),
+                Order::Quit => flow.set_exit(),
             }
-            Some(_) => {}
-            None => self.hear(MenuInput::Over(line), flow),
         }
     }
 
-    /// The line of the menu under the pointer.
-    fn pointed(&self) -> Option<(usize, Option<f64>)> {
+    /// The game hears something, if it is not for the window itself.
+    fn tell(&mut self, report: RawInput) {
+        let (now_s, picked) = (self.now_s(), self.picked());
+        let Some(game) = &mut self.game else { return };
+        let report = match (report, picked) {
+            (RawInput::Key { key: Key::Letter('i'), down }, _) => {
+                game.shows_thoughts ^= down;
+                return;
+            }
+            (RawInput::Key { key, down: true }, _)
+                if game.heard.as_mut().is_some_and(|heard| heard.turn(key, now_s)) =>
+            {
+                return;
+            }
+            (RawInput::Button { button: Button::Left, down: true }, Some(option)) => {
+                RawInput::Picked { option }
+            }
+            (report, _) => report,
+        };
+        game.outbox.say(report);
+    }
+
+    /// The line of the menu under a free pointer.
+    fn pointed(&self) -> Option<Pointed> {
         let panel = self.panel()?;
         let size = self.window.inner_size().cast::<f64>();
         let layout = MenuLayout::new((size.width, size.height), panel.lines.len());
@@ -285,7 +247,7 @@ impl<'a> Desk<'a> {
     }
 
     fn panel(&self) -> Option<MenuPanel> {
-        MenuPanel::new(self.menu.as_ref()?, &self.words)
+        MenuPanel::new(self.lobby.menu()?, &self.words)
     }
 
     /// The line of the options under a free pointer.
@@ -296,71 +258,21 @@ impl<'a> Desk<'a> {
         hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
     }
 
-    /// The mouse moved to the right and down [pixels].
-    fn moved(&mut self, (right, down): (f64, f64)) {
-        let factor = self.menu.as_ref().map_or(1.0, |menu| menu.settings.mouse_factor());
-        let unit = factor / f64::from(self.window.inner_size().height.max(1));
-        self.say(RawInput::Moved { right: right * unit, up: -down * unit });
-    }
-
-    fn is_menu_open(&self) -> bool {
-        self.menu.as_ref().is_some_and(Menu::is_open)
-    }
-
-    fn open(&mut self, page: &str) {
-        if let Some(menu) = &mut self.menu {
-            menu.open(page);
-        }
-        // What was held when it opened is let go: its end would reach only the menu.
-        self.held.clear();
-        self.say(RawInput::FocusLost);
-    }
-
-    fn close(&mut self) {
-        if let Some(menu) = &mut self.menu {
-            menu.close();
-        }
-    }
-
     fn language(&self) -> Language {
         let system = self.system;
-        self.menu.as_ref().map_or(system, |menu| menu.settings.language.language(system))
+        self.lobby.menu().map_or(system, |menu| menu.settings.language.language(system))
     }
 
     fn now_s(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }
 
-    /// Moves the menu, and does what it asks for.
-    fn hear(&mut self, input: MenuInput, flow: &mut ControlFlow) {
-        let Some(deed) = self.menu.as_mut().and_then(|menu| menu.hear(input)) else { return };
-        match deed {
-            Deed::Start | Deed::Again => {
-                if let Err(error) = self.begin(deed == Deed::Again) {
-                    self.complain(&error);
-                }
-            }
-            Deed::Resume => {
-                self.close();
-                self.is_resuming = true;
-                for down in [true, false] {
-                    self.say(RawInput::Key { key: Key::Escape, down });
-                }
-            }
-            Deed::Leave => self.leave(),
-            Deed::Quit => {
-                self.say(RawInput::Closed);
-                flow.set_exit();
-            }
-            Deed::Changed => self.changed(),
-        }
-    }
-
-    fn complain(&mut self, error: &Error) {
+    /// A menu says what went wrong; without one nothing more is to be done.
+    fn complain(&mut self, error: Error, flow: &mut ControlFlow) {
         log::warn!("{error}");
-        let notice = self.words.fill("failed", "reason", &error.to_string());
-        if let Some(menu) = &mut self.menu {
-            menu.notice = Some(notice);
+        if !self.lobby.complain(self.words.fill("failed", "reason", &error.to_string())) {
+            self.failed = Some(error);
+            flow.set_exit();
         }
     }
 
@@ -369,7 +281,7 @@ impl<'a> Desk<'a> {
         self.keep();
         self.game = None;
         let language = self.language();
-        let settings = self.menu.as_ref().map(|menu| &menu.settings);
+        let settings = self.lobby.menu().map(|menu| &menu.settings);
         let prepared = self.host.prepare(settings, language, again)?;
         let ended = self.ended.clone();
         let tell = move || {
@@ -378,25 +290,10 @@ impl<'a> Desk<'a> {
         };
         let game = Running::begin(prepared, &self.graphics, language, tell)?;
         self.game = Some(game);
-        (self.is_resuming, self.is_leaving, self.volume) = (false, false, None);
-        self.close();
+        self.volume = None;
+        self.lobby.began();
         self.apply();
         Ok(())
-    }
-
-    /// The game ends, and the main menu opens.
-    fn leave(&mut self) {
-        match &self.game {
-            Some(game) if !game.is_over() => {
-                self.is_leaving = true;
-                self.close();
-                self.say(RawInput::Closed);
-            }
-            _ => {
-                self.game = None;
-                self.open("main");
-            }
-        }
     }
 
     fn game_ended(&mut self, flow: &mut ControlFlow) {
@@ -407,25 +304,15 @@ impl<'a> Desk<'a> {
         let has_result = game.board.over.is_some();
         let Some(finished) = game.join() else { return };
         let told = self.host.ended(&finished);
-        let failed = finished.map_err(Error::from).and(told).err();
-        match (failed, self.menu.is_some()) {
-            (Some(error), true) => {
-                self.game = None;
-                self.open("main");
-                self.complain(&error);
-            }
-            (Some(error), false) => {
-                self.failed = Some(error);
-                flow.set_exit();
-            }
-            // Everybody shall see who won.
-            (None, _) if has_result && !self.is_leaving => self.open("over"),
-            (None, true) if !self.stop.is_set() => {
-                self.game = None;
-                self.open("main");
-            }
-            // A game that was ended, not won, has nothing left to show.
-            (None, _) => flow.set_exit(),
+        if let Err(error) = finished.map_err(Error::from).and(told) {
+            self.game = None;
+            self.lobby.open_main();
+            self.complain(error, flow);
+        } else if self.stop.is_set() {
+            flow.set_exit();
+        } else {
+            let orders = self.lobby.ended(has_result);
+            self.obey(orders, flow);
         }
     }
 
@@ -433,7 +320,7 @@ impl<'a> Desk<'a> {
     fn changed(&mut self) {
         self.unkept = Some(Instant::now());
         self.words = Words::of_menus(self.language());
-        let is_full = self.menu.as_ref().is_some_and(|menu| menu.settings.full_screen);
+        let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
         if is_full != self.window.fullscreen().is_some() {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
         }
@@ -443,7 +330,7 @@ impl<'a> Desk<'a> {
     /// What is set becomes true in the game.
     fn apply(&mut self) {
         let language = self.language();
-        let (Some(menu), Some(game)) = (&self.menu, &mut self.game) else { return };
+        let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
         game.speak(language);
         // Keys turn it too: what is set acts when it is set.
         let volume = menu.settings.volume_factor();
@@ -456,7 +343,7 @@ impl<'a> Desk<'a> {
     /// Writes what is set, if it is not written.
     fn keep(&mut self) {
         if self.unkept.take().is_some()
-            && let Some(menu) = &self.menu
+            && let Some(menu) = self.lobby.menu()
         {
             self.host.keep(&menu.settings);
         }
@@ -474,7 +361,7 @@ impl<'a> Desk<'a> {
         let view = game.view();
         let (list, mut hud) = game.seen(&view, now_s);
         if let Some(mut panel) = panel {
-            if let (Some((title, _)), true) = (&hud.banner, game.is_over()) {
+            if let (Some((title, _)), true) = (&hud.banner, self.lobby.is_over()) {
                 panel.title.clone_from(title);
             }
             // The menu says it.
@@ -490,10 +377,10 @@ impl<'a> Desk<'a> {
         let now_s = self.now_s();
         if let Some(game) = &mut self.game {
             game.take_news(now_s);
-            let is_paused = game.is_paused() && !game.is_over();
-            self.is_resuming &= is_paused;
-            if is_paused && !self.is_resuming && !self.is_leaving && !self.is_menu_open() {
-                self.open("pause");
+            for order in self.lobby.see(game.is_paused()) {
+                if let Order::Tell(report) = order {
+                    game.outbox.say(report);
+                }
             }
         }
         self.hold_pointer();
@@ -533,11 +420,11 @@ impl<'a> Desk<'a> {
     /// While time stands still, something is to be chosen or no game goes on, the pointer belongs
     /// to the player's desk.
     fn hold_pointer(&mut self) {
-        let goes_on = self.game.as_mut().is_some_and(|game| {
-            let is_free = matches!(game.view().mode, HumanMode::Paused | HumanMode::Choosing);
-            !is_free && !game.is_over()
-        });
-        let is_playing = self.is_focused && goes_on && !self.is_menu_open();
+        let is_free = |game: &mut Running| {
+            matches!(game.view().mode, HumanMode::Paused | HumanMode::Choosing)
+        };
+        let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game));
+        let is_playing = self.is_focused && goes_on && self.lobby.is_playing();
         if is_playing && !self.pointer.is_caught() {
             self.pointer.catch(&self.window);
         } else if !is_playing && self.pointer.is_caught() {

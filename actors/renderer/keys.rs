@@ -1,7 +1,6 @@
 //! Keys and buttons of the window system as the game knows them.
 
 use hapticbillard::input::{Button, Key};
-use hapticbillard::menu::MenuInput;
 use winit::event::{MouseButton, MouseScrollDelta, VirtualKeyCode};
 
 /// Pixels of a touchpad's scrolling that count as one notch of a wheel.
@@ -25,19 +24,6 @@ pub fn notches(delta: MouseScrollDelta) -> f64 {
     }
 }
 
-/// What a key does in a menu.
-pub fn menu_input(key: Key) -> Option<MenuInput> {
-    Some(match key {
-        Key::Up => MenuInput::Up,
-        Key::Down | Key::Tab => MenuInput::Down,
-        Key::Left => MenuInput::Less,
-        Key::Right => MenuInput::More,
-        Key::Enter | Key::Space => MenuInput::Accept,
-        Key::Escape => MenuInput::Back,
-        _ => return None,
-    })
-}
-
 /// The keys that the game knows.
 pub fn key(code: VirtualKeyCode) -> Option<Key> {
     use VirtualKeyCode as Code;
@@ -58,12 +44,15 @@ pub fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::Key1 | Code::Numpad1 => Key::Letter('1'),
         Code::Key2 | Code::Numpad2 => Key::Letter('2'),
         Code::Key3 | Code::Numpad3 => Key::Letter('3'),
+        Code::A => Key::Letter('a'),
         Code::B => Key::Letter('b'),
         Code::C => Key::Letter('c'),
+        Code::D => Key::Letter('d'),
         Code::F => Key::Letter('f'),
         Code::H => Key::Letter('h'),
         Code::I => Key::Letter('i'),
         Code::M => Key::Letter('m'),
+        Code::N => Key::Letter('n'),
         Code::O => Key::Letter('o'),
         Code::P => Key::Letter('p'),
         Code::Q => Key::Letter('q'),

@@ -150,11 +150,6 @@ impl Running {
         self.words = Words::new(language);
     }
 
-    /// Whether it is over.
-    pub fn is_over(&self) -> bool {
-        self.thread.is_none()
-    }
-
     /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
     /// before.
     pub fn join(&mut self) -> Option<Result<Finished, RunError>> {

@@ -63,3 +63,14 @@ pub const CAMERA_TICKS: u64 = 350;
 /// How far the cue ball goes over the bed when the mouse crosses the window's height, while it is
 /// placed [m]: what the bird's eye sees over this height, so that the ball keeps to the pointer.
 pub const PLACING_M_PER_HEIGHT: f64 = 1.842;
+
+/// How fast `a` and `d` turn the cue [rad/s]; with Shift a tick turns it by 0.04 mrad.
+pub const AIM_RAD_PER_S: f64 = 0.4;
+/// How fast arrow keys move a ball in hand [m/s].
+pub const PLACING_M_PER_S: f64 = 0.5;
+/// How fast the tip is pulled back while Return is held [m/s]: a second and a half to the end.
+pub const KEY_PULL_M_PER_S: f64 = 0.26;
+/// Speed of the tip in the softest stroke by a key [m/s], and in the hardest.
+pub const KEY_SPEED_LEAST_M_S: f64 = 0.3;
+/// See above.
+pub const KEY_SPEED_MOST_M_S: f64 = 8.0;

@@ -4,7 +4,9 @@
 //! |---|---|---|---|
 //! | mouse | turns the cue | moves the cue ball | moves the tip along the shaft |
 //! | left button | held: a stroke | puts the ball down | let go: back to aiming |
-//! | right button held, arrows | tip offset | | |
+//! | right button held, arrows | tip offset | arrows: move the ball | |
+//! | `a` and `d` | turn the cue | | |
+//! | Return | held: the tip is pulled back | puts the ball down | let go: the stroke |
 //! | Page up and down, Control and wheel | raises the butt | | |
 //! | space, `r` | tip to the middle | | |
 //! | Shift held | a tenth of everything | a tenth | |
@@ -23,6 +25,9 @@
 
 mod eye;
 
+mod keys;
+use keys::KeyStroke;
+
 mod says;
 
 mod stylus;
@@ -31,8 +36,8 @@ pub use stylus::STYLUS;
 use super::calling::Calling;
 use super::camera::Camera;
 use super::feel::{
-    AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, ELEVATION_RAD_PER_S, FINE,
-    LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT, OFFSET_PER_S, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
+    AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, FINE, LOOK_RAD_PER_HEIGHT,
+    OFFSET_PER_HEIGHT, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
 };
 use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
@@ -49,7 +54,7 @@ use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
 use crate::table::Table;
 use crate::tick::{Delivered, Frame, Inflow, Outcome, Participant};
-use crate::units::{TICK_S, Tick};
+use crate::units::Tick;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -93,6 +98,8 @@ pub struct Human {
     raised_rad: f64,
     /// Middle of the cue ball that is aimed at [m].
     centre: DVec3,
+    /// A stroke by a key, while there is one.
+    key_stroke: Option<KeyStroke>,
     /// The way of the tip in the last tick of a stroke.
     path: Option<CuePath>,
     strength_m_s: f64,
@@ -134,6 +141,7 @@ impl Human {
             aim: Aim::default(),
             raised_rad: 0.0,
             centre: DVec3::ZERO,
+            key_stroke: None,
             path: None,
             strength_m_s: 0.0,
             ghost: None,
@@ -196,6 +204,7 @@ impl Human {
         }
         self.camera.step();
         if !self.paused {
+            up += self.key_movement();
             self.move_tip(tick, up);
         }
         self.show_aim(tick);
@@ -223,6 +232,9 @@ impl Human {
             RawInput::Wheel { notches } => self.wheel(notches),
             RawInput::Key { key, down } => {
                 self.held.key(key, down);
+                if (key, down) == (Key::Enter, false) {
+                    self.release_key();
+                }
                 return down && self.key(key);
             }
             RawInput::Picked { option } => self.pick(option),
@@ -297,6 +309,7 @@ impl Human {
             Key::Letter('t') if self.is_practice && !self.paused => self.take_up(),
             Key::Tab => self.step(None),
             Key::Letter(letter @ ('b' | 's' | 'o')) => self.step(Some(letter)),
+            Key::Enter => self.press_key(),
             Key::Help => self.help = !self.help,
             Key::Letter('h') => self.overlay = !self.overlay,
             _ => {}
@@ -312,23 +325,6 @@ impl Human {
             self.say(Event::Menu(MenuAction::Pause));
         } else {
             self.say(Event::Menu(MenuAction::Resume));
-        }
-    }
-
-    /// What held keys do in one tick.
-    fn hold_keys(&mut self) {
-        if self.paused {
-            return;
-        }
-        let step = OFFSET_PER_S * TICK_S * self.fine();
-        let side = self.held.balance(Key::Right, Key::Left) * step;
-        let height = self.held.balance(Key::Up, Key::Down) * step;
-        if (side, height) != (0.0, 0.0) {
-            self.shift_tip(side, height);
-        }
-        let raise = self.held.balance(Key::PageUp, Key::PageDown);
-        if raise != 0.0 {
-            self.raise(raise * ELEVATION_RAD_PER_S * TICK_S * self.fine());
         }
     }
 
@@ -410,7 +406,7 @@ impl Human {
     fn let_go(&mut self) {
         if matches!(self.stage, Stage::Stroking(_)) {
             self.stage = Stage::Aiming;
-            self.path = None;
+            (self.path, self.key_stroke) = (None, None);
             // Shown at once, even if time stands still from here on: no solid cue is left behind.
             self.is_aim_new = true;
         }

@@ -2,7 +2,7 @@
 
 use super::Words;
 use crate::ids::PlayerId;
-use crate::menu::{Effect, Item, Menu, Range, Seat, Setting, Settings};
+use crate::menu::{Effect, Item, Menu, Pointed, Range, Seat, Setting, Settings};
 
 /// A page of a menu, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,13 +62,15 @@ impl MenuPanel {
 pub fn player_names(settings: &Settings, words: &Words) -> Vec<String> {
     let players = [PlayerId::ONE, PlayerId::TWO];
     let people = players.iter().filter(|player| settings.seat(**player) == Seat::Human).count();
+    let number = |player: PlayerId| (player.index() + 1).to_string();
     let name = |player: PlayerId| match settings.seat(player) {
         Seat::Computer => {
+            let key = if people == 0 { "name_computers" } else { "name_computer" };
             let strength = settings.strength(player).to_string();
-            words.fill("name_computer", "strength", &strength)
+            words.fill(key, "strength", &strength).replace("{number}", &number(player))
         }
         Seat::Human if people == 1 => words.get("name_alone"),
-        Seat::Human => words.fill("name_human", "number", &(player.index() + 1).to_string()),
+        Seat::Human => words.fill("name_human", "number", &number(player)),
     };
     match settings.game.seats() {
         1 => vec![words.get("name_alone")],
@@ -187,18 +189,19 @@ impl MenuLayout {
         Area { x: line.x + from, y, width: to - from, height }
     }
 
-    /// The line under a pointer, and how far along what is set there, if it is there.
-    pub fn line_at(&self, panel: &MenuPanel, (x, y): (f64, f64)) -> Option<(usize, Option<f64>)> {
+    /// The line under a pointer.
+    pub fn line_at(&self, panel: &MenuPanel, (x, y): (f64, f64)) -> Option<Pointed> {
         let line = (0..self.lines).find(|n| self.line(*n).has(x, y))?;
         let shown = panel.lines.get(line)?;
         let area = match (&shown.value, shown.fill) {
-            (None, _) => return Some((line, None)),
+            (None, _) => return Some(Pointed { line, share: None, is_scale: false }),
             (Some(_), Some(_)) => self.scale(line),
             (Some(_), None) => self.value(line),
         };
         let share = (x - area.x) / area.width;
         // A little beside the end of a scale is its end.
         let is_there = (-0.08..=1.08).contains(&share);
-        Some((line, is_there.then_some(share.clamp(0.0, 1.0))))
+        let share = is_there.then_some(share.clamp(0.0, 1.0));
+        Some(Pointed { line, share, is_scale: shown.fill.is_some() })
     }
 }

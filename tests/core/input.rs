@@ -9,7 +9,7 @@ pub mod desk;
 /// A person whose stylus strikes.
 mod led;
 /// Whole turns and games of a person.
-mod play;
+pub mod play;
 /// Strokes: what the hand does is what the tip does.
 mod stroke;
 /// A stylus beside the mouse: who strikes, and what becomes of a stroke whose device is lost.

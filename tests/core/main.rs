@@ -26,6 +26,8 @@ mod haptic;
 mod input;
 /// What hands lay down: racks set up anew, shots taken back.
 mod lies;
+/// Menus, and whole games from the main menu and back.
+mod menu;
 /// Minigolf: another ground, ball and tip.
 mod minigolf;
 /// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.

@@ -1,9 +1,7 @@
 //! What a player has set, from one run to the next.
 
 use hapticbillard::menu::Settings;
-use hapticbillard_actors::files::{settings_file, write_whole};
-use std::fs;
-use std::io::ErrorKind;
+use hapticbillard_actors::files::{put_aside, read_if_there, settings_file, write_whole};
 use std::path::{Path, PathBuf};
 
 /// What is kept; the usual where nothing is.
@@ -25,22 +23,20 @@ pub fn keep(settings: &Settings) {
     }
 }
 
-/// A file that cannot be understood is put aside: somebody may have written it.
 fn load_from(path: &Path) -> Settings {
-    let text = match fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Settings::default(),
+    let text = match read_if_there(path) {
+        Ok(Some(text)) => text,
+        Ok(None) => return Settings::default(),
         Err(error) => {
-            log::warn!("{}: {error}; the usual settings are used", path.display());
+            log::warn!("{error}; the usual settings are used");
             return Settings::default();
         }
     };
     Settings::parse(&text).unwrap_or_else(|problem| {
-        let aside = path.with_extension("toml.bad");
         let file = path.display();
-        match fs::rename(path, &aside) {
-            Ok(()) => log::warn!("{file}: {problem}; it is {} now", aside.display()),
-            Err(reason) => log::warn!("{file}: {problem}; it cannot be put aside: {reason}"),
+        match put_aside(path) {
+            Ok(aside) => log::warn!("{file}: {problem}; it is {} now", aside.display()),
+            Err(error) => log::warn!("{file}: {problem}; it cannot be put aside: {error}"),
         }
         Settings::default()
     })
@@ -50,6 +46,7 @@ fn load_from(path: &Path) -> Settings {
 mod tests {
     use super::*;
     use hapticbillard::menu::{GameChoice, Setting};
+    use std::fs;
 
     #[test]
     fn what_is_set_is_there_the_next_time_and_a_broken_file_is_put_aside() {

@@ -2,7 +2,7 @@
 
 use super::super::camera::Viewpoint;
 use super::super::{HumanMode, HumanView};
-use super::{Human, Stage};
+use super::{Human, KeyStroke, Stage};
 use glam::DVec2;
 
 impl Human {
@@ -40,7 +40,8 @@ impl Human {
             Stage::Stroking(tip) => {
                 view.mode = HumanMode::Stroking;
                 view.pulled_back_m = tip.pulled_back_m();
-                view.strength_m_s = tip.speed_m_s().abs();
+                let by_key = self.key_stroke.as_ref().map(KeyStroke::speed_m_s);
+                view.strength_m_s = by_key.unwrap_or(tip.speed_m_s().abs());
                 view.ghost = self.ghost.map(|(place, _)| place);
                 view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
             }

@@ -8,6 +8,7 @@ use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
 use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput, StylusWord};
 use hapticbillard::lockstep::{Lockstep, Setup};
+use hapticbillard::menu::{Lobby, Order};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
@@ -96,6 +97,10 @@ pub fn shipped(name: &str) -> Scene {
 
 /// A game with a person.
 pub struct Desk {
+    /// What stands between the devices and the game, where a window is played in.
+    pub lobby: Option<Lobby>,
+    /// What it ordered, other than telling the game something.
+    pub orders: Vec<Order>,
     game: Lockstep<'static>,
     shared: Arc<Mutex<Shared>>,
     pub finished: Option<Finished>,
@@ -137,16 +142,38 @@ impl Desk {
         setup.pace = pace;
         setup.input = Some(Box::new(Hand(shared.clone())));
         setup.observers.push(Box::new(Hand(shared.clone())));
-        Desk { game: Lockstep::new(cast, setup).unwrap(), shared, finished: None }
+        let game = Lockstep::new(cast, setup).unwrap();
+        Desk { lobby: None, orders: Vec::new(), game, shared, finished: None }
     }
 
     /// One tick in which the devices say this.
     pub fn tick(&mut self, reports: &[RawInput]) {
-        self.shared.lock().unwrap().reports.extend_from_slice(reports);
+        let is_paused = self.mode() == HumanMode::Paused;
+        let told = match &mut self.lobby {
+            None => reports.to_vec(),
+            Some(lobby) => {
+                let mut orders = lobby.see(is_paused);
+                orders.extend(reports.iter().flat_map(|report| lobby.hear(*report, None)));
+                self.take_orders(orders)
+            }
+        };
+        self.shared.lock().unwrap().reports.extend(told);
         let asked = self.shared.lock().unwrap().asked;
         while self.finished.is_none() && self.shared.lock().unwrap().asked == asked {
             self.finished = self.game.step().unwrap();
         }
+    }
+
+    /// Keeps orders for whoever runs the games; what the game is told comes back.
+    fn take_orders(&mut self, orders: Vec<Order>) -> Vec<RawInput> {
+        let mut told = Vec::new();
+        for order in orders {
+            match order {
+                Order::Tell(report) => told.push(report),
+                order => self.orders.push(order),
+            }
+        }
+        told
     }
 
     /// One tick in which a stylus says this.

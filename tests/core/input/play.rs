@@ -17,7 +17,7 @@ use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
 
 /// The last turn that was called.
-fn turn(desk: &Desk) -> Option<Arc<Turn>> {
+pub fn turn(desk: &Desk) -> Option<Arc<Turn>> {
     let turn = |event| match event {
         Event::Turn(turn) => Some(turn),
         _ => None,

@@ -1,0 +1,125 @@
+//! A turn by keys alone: what held keys move in a tick, and a stroke by one key.
+
+use super::super::feel::{
+    AIM_RAD_PER_S, ELEVATION_RAD_PER_S, KEY_PULL_M_PER_S, KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S,
+    OFFSET_PER_S, PLACING_M_PER_S, PULL_MAX_M, STROKE_FILTER_RAD_S, STROKE_M_PER_HEIGHT,
+};
+use super::super::tip::Tip;
+use super::{Human, Stage};
+use crate::cue::Aim;
+use crate::input::Key;
+use crate::units::TICK_S;
+use glam::DVec2;
+
+/// So far beyond the ball a hand goes that strikes by a key [m].
+const THROUGH_M: f64 = 0.1;
+
+/// A stroke by one key: the longer it is held, the farther the tip is pulled back and the harder
+/// the stroke that its end makes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct KeyStroke {
+    /// How far the hand has pulled back, or has still to push [m].
+    way_m: f64,
+    /// How hard it is pushed [m/s]; none while the key is held.
+    push_m_s: Option<f64>,
+}
+
+impl KeyStroke {
+    const BEGIN: KeyStroke = KeyStroke { way_m: 0.0, push_m_s: None };
+
+    /// The speed that the stroke has, or would have now [m/s]: fine where it is soft.
+    pub fn speed_m_s(&self) -> f64 {
+        let share = self.way_m / PULL_MAX_M;
+        let range = KEY_SPEED_MOST_M_S - KEY_SPEED_LEAST_M_S;
+        self.push_m_s.unwrap_or(KEY_SPEED_LEAST_M_S + range * share * share)
+    }
+
+    /// The key is let go.
+    fn push(&mut self) {
+        if self.push_m_s.is_none() {
+            let speed_m_s = self.speed_m_s();
+            self.push_m_s = Some(speed_m_s);
+            // The tip lags the hand by two time constants, and shall not brake before the ball.
+            self.way_m += THROUGH_M + 2.0 * speed_m_s / STROKE_FILTER_RAD_S;
+        }
+    }
+
+    /// How far the hand moves forwards in one tick [m]; none if it is through.
+    fn step(&mut self) -> Option<f64> {
+        match self.push_m_s {
+            None => {
+                let by = (KEY_PULL_M_PER_S * TICK_S).min(PULL_MAX_M - self.way_m);
+                self.way_m += by;
+                Some(-by)
+            }
+            Some(_) if self.way_m <= 0.0 => None,
+            Some(speed_m_s) => {
+                self.way_m -= speed_m_s * TICK_S;
+                Some(speed_m_s * TICK_S)
+            }
+        }
+    }
+}
+
+impl Human {
+    /// What held keys do in one tick.
+    pub(super) fn hold_keys(&mut self) {
+        if self.paused {
+            return;
+        }
+        let fine = self.fine() * TICK_S;
+        let right = self.held.balance(Key::Right, Key::Left);
+        let up = self.held.balance(Key::Up, Key::Down);
+        if (right, up) != (0.0, 0.0) {
+            let by = DVec2::new(right, up);
+            match &mut self.stage {
+                Stage::Placing(placing) => {
+                    let by = by * (PLACING_M_PER_S * fine);
+                    placing.moved(by, self.table.bed.as_ref(), self.radius_m);
+                }
+                _ => self.shift_tip(right * OFFSET_PER_S * fine, up * OFFSET_PER_S * fine),
+            }
+        }
+        let raise = self.held.balance(Key::PageUp, Key::PageDown);
+        if raise != 0.0 {
+            self.raise(raise * ELEVATION_RAD_PER_S * TICK_S);
+        }
+        let left = self.held.balance(Key::Letter('a'), Key::Letter('d'));
+        if left != 0.0 {
+            let by_rad = left * AIM_RAD_PER_S * fine;
+            if !self.turn_workspace(by_rad, 0.0) {
+                self.change_aim(|aim: &mut Aim| aim.azimuth_rad += by_rad);
+            }
+        }
+    }
+
+    /// The key that strikes goes down: it puts a ball down, or begins a stroke.
+    pub(super) fn press_key(&mut self) {
+        self.press();
+        if matches!(self.stage, Stage::Stroking(_)) {
+            self.key_stroke = Some(KeyStroke::BEGIN);
+        }
+    }
+
+    /// It is let go.
+    pub(super) fn release_key(&mut self) {
+        if let Some(stroke) = &mut self.key_stroke {
+            stroke.push();
+        }
+    }
+
+    /// How far a hand that strikes by a key moves in this tick [heights of a window].
+    pub(super) fn key_movement(&mut self) -> f64 {
+        let Some(stroke) = &mut self.key_stroke else { return 0.0 };
+        let Stage::Stroking(tip) = &mut self.stage else {
+            self.key_stroke = None;
+            return 0.0;
+        };
+        let step = stroke.step();
+        if step.is_none() {
+            Tip::let_go(tip, 0.0);
+            self.key_stroke = None;
+        }
+        step.unwrap_or(0.0) / STROKE_M_PER_HEIGHT
+    }
+}
