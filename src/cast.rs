@@ -89,19 +89,24 @@ impl Cast {
                 None => referee,
             }
         });
-        let players = computers(&Surroundings {
+        let surroundings = Surroundings {
             scene,
             table: &table,
             balls: &balls,
             simulation: &simulation,
             referee: referee.as_ref(),
             ball_radius_m: radius_m,
-        })?;
+        };
+        let players = computers(&surroundings)?;
         let human = scene.has_hand().then(|| {
             Human::new(scene.human_players(), table.clone())
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)
         });
+        let human = match (human, surroundings.foresight(tip_radius_m)?) {
+            (Some(human), Some(foresight)) => Some(human.with_foresight(foresight)),
+            (human, _) => human,
+        };
         let human = human.map(|human| if is_practice { human.for_practice() } else { human });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, names })

@@ -12,6 +12,9 @@ pub use view::{CameraPose, HumanMode, HumanView, Look};
 
 pub mod feel;
 
+mod foresight;
+pub use foresight::{AimAid, BallWay, Foresight};
+
 mod held;
 
 mod camera;

@@ -257,7 +257,7 @@ impl FeltMouse {
                 self.held = Buttons::default();
                 MouseMove::Held(self.held)
             }
-            RawInput::Key { .. } | RawInput::Picked { .. } => return,
+            RawInput::Key { .. } | RawInput::Picked { .. } | RawInput::Aid(_) => return,
         };
         // A full ring loses movements; whatever is held is said again with the next button.
         let _ = self.port.say(heard);

@@ -8,7 +8,7 @@ use super::stage::{BACKGROUND, Stage};
 use super::window::{Backdrop, GameEnded, Host, WindowSetup};
 use crate::error::Error;
 use crate::pacer::StopFlag;
-use hapticbillard::input::{Button, HumanMode, Key, RawInput};
+use hapticbillard::input::{AimAid, Button, HumanMode, Key, RawInput};
 use hapticbillard::menu::{Lobby, Order, Pointed};
 use hapticbillard::renderer::{DrawList, Hud, MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
@@ -40,8 +40,9 @@ pub(super) struct Desk<'a> {
     game: Option<Running>,
     /// What was set and is not written yet.
     unkept: Option<Instant>,
-    /// The volume that the game was last told.
+    /// The volume and the help to aim that the game was last told.
     volume: Option<f32>,
+    aid: Option<AimAid>,
     /// What went wrong with a game that no menu can tell of.
     failed: Option<Error>,
     pointer: Pointer,
@@ -79,6 +80,7 @@ impl<'a> Desk<'a> {
             game: None,
             unkept: None,
             volume: None,
+            aid: None,
             failed: None,
             pointer: Pointer::new(),
             start: now,
@@ -290,7 +292,7 @@ impl<'a> Desk<'a> {
         };
         let game = Running::begin(prepared, &self.graphics, language, tell)?;
         self.game = Some(game);
-        self.volume = None;
+        (self.volume, self.aid) = (None, None);
         self.lobby.began();
         self.apply();
         Ok(())
@@ -332,6 +334,10 @@ impl<'a> Desk<'a> {
         let language = self.language();
         let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
         game.speak(language);
+        let aid = menu.settings.aim_aid.aid();
+        if self.aid.replace(aid) != Some(aid) {
+            game.outbox.say(RawInput::Aid(aid));
+        }
         // Keys turn it too: what is set acts when it is set.
         let volume = menu.settings.volume_factor();
         if let Some(heard) = game.heard.as_ref().filter(|_| self.volume != Some(volume)) {

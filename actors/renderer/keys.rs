@@ -61,6 +61,7 @@ pub fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::T => Key::Letter('t'),
         Code::U => Key::Letter('u'),
         Code::V => Key::Letter('v'),
+        Code::X => Key::Letter('x'),
         Code::Plus | Code::Equals | Code::NumpadAdd => Key::Letter('+'),
         Code::Minus | Code::NumpadSubtract => Key::Letter('-'),
         _ => return None,

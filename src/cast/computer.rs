@@ -6,6 +6,7 @@ use crate::ball::{Ball, BallState};
 use crate::cue::Aim;
 use crate::hash::seed_of;
 use crate::ids::PlayerId;
+use crate::input::Foresight;
 use crate::physics::{PhysicsError, PhysicsSettings, Profile, Simulation, SolverKind};
 use crate::rules::Referee;
 use crate::scene::{PlayerKind, PlayerSection, Scene};
@@ -126,6 +127,17 @@ impl Surroundings<'_> {
     /// The exact solver wherever it knows the scene's contact laws, whatever the game itself is
     /// computed with: it takes a fraction of the time, and a player who reckons with the laws need
     /// not reckon with the errors of a step. Only profile `2009` has laws that need steps.
+    /// A table on which a person looks ahead; none where nobody sits at mouse and keyboard, nobody
+    /// has a cue, or commands do not act at once.
+    pub fn foresight(&self, tip_radius_m: f64) -> Result<Option<Foresight>, PhysicsError> {
+        if !self.scene.has_hand() || self.scene.cue.is_none() {
+            return Ok(None);
+        }
+        let Own { simulation, delay_s } = self.own_simulation()?;
+        let balls = self.balls.iter().map(|(ball, _)| ball.clone()).collect();
+        Ok((delay_s == 0.0).then(|| Foresight::new(simulation, balls, tip_radius_m)))
+    }
+
     fn own_simulation(&self) -> Result<Own, PhysicsError> {
         let settings = &self.scene.physics;
         match (settings.solver, settings.profile) {

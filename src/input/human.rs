@@ -17,11 +17,16 @@
 //! are taken with `1` to `3`, or by a click on their line. In training `u` takes a shot back, and
 //! `t` takes up a ball: Tab is the next one then, and `t` again puts it back.
 //!
+//! `x` goes through what helps to aim: nothing, a line, or the ways of the balls to their end.
+//!
 //! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
 //! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause
 //! quits. Who waits for rolling balls or for somebody else holds `f`, and time runs faster.
 //!
 //! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
+
+mod ahead;
+use ahead::Ahead;
 
 mod eye;
 
@@ -36,8 +41,8 @@ pub use stylus::STYLUS;
 use super::calling::Calling;
 use super::camera::Camera;
 use super::feel::{
-    AIM_RAD_PER_HEIGHT, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_NOTCH, FINE, LOOK_RAD_PER_HEIGHT,
-    OFFSET_PER_HEIGHT, PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
+    AIM_RAD_PER_HEIGHT, ELEVATION_RAD_PER_NOTCH, FINE, LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT,
+    PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
 };
 use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
@@ -105,6 +110,9 @@ pub struct Human {
     strength_m_s: f64,
     ghost: Option<(DVec3, DVec2)>,
 
+    /// What is seen ahead while aiming.
+    ahead: Ahead,
+
     /// The stylus beside the mouse.
     stylus: Option<HandOver>,
     /// The mouse is what moves the stylus.
@@ -145,6 +153,7 @@ impl Human {
             path: None,
             strength_m_s: 0.0,
             ghost: None,
+            ahead: Ahead::default(),
             stylus: None,
             is_mouse_felt: false,
             held: Held::default(),
@@ -208,6 +217,7 @@ impl Human {
             self.move_tip(tick, up);
         }
         self.show_aim(tick);
+        self.look_ahead(tick);
         self.follow_with_camera();
 
         let frame = if self.was_paused { Frame::new() } else { std::mem::take(&mut self.pending) };
@@ -238,6 +248,7 @@ impl Human {
                 return down && self.key(key);
             }
             RawInput::Picked { option } => self.pick(option),
+            RawInput::Aid(aid) => self.ahead.aid = aid,
             RawInput::FocusLost => {
                 self.held.forget();
                 self.let_go();
@@ -311,6 +322,7 @@ impl Human {
             Key::Letter(letter @ ('b' | 's' | 'o')) => self.step(Some(letter)),
             Key::Enter => self.press_key(),
             Key::Help => self.help = !self.help,
+            Key::Letter('x') => self.ahead.aid = self.ahead.aid.next(),
             Key::Letter('h') => self.overlay = !self.overlay,
             _ => {}
         }
@@ -333,16 +345,6 @@ impl Human {
             aim.side_offset += right;
             aim.height_offset += upwards;
         });
-    }
-
-    fn raise(&mut self, by_rad: f64) {
-        let is_aiming = matches!(self.stage, Stage::Aiming);
-        if self.paused || !is_aiming || self.turn_workspace(0.0, by_rad) {
-            return;
-        }
-        // From what is seen, so that lowering a cue that something holds up acts at once.
-        self.raised_rad = (self.aim.elevation_rad + by_rad).clamp(0.0, ELEVATION_MAX_RAD);
-        self.change_aim(|_| {});
     }
 
     /// Changes how the cue is held, if it is held to aim, and keeps it clear of everything.

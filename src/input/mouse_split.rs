@@ -35,7 +35,7 @@ impl MouseSplit {
                 self.held.key(*key, *down);
                 Reader::Eye
             }
-            RawInput::Picked { .. } => Reader::Eye,
+            RawInput::Picked { .. } | RawInput::Aid(_) => Reader::Eye,
             RawInput::FocusLost => {
                 self.held.forget();
                 Reader::Both

@@ -1,5 +1,7 @@
 //! What mouse and keyboard say, in units that do not depend on the window's size.
 
+use super::AimAid;
+
 /// One report of a device.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RawInput {
@@ -34,6 +36,8 @@ pub enum RawInput {
         /// Which.
         option: usize,
     },
+    /// So much help is wanted while aiming, from now on.
+    Aid(AimAid),
     /// Another window has the keyboard now: everything held counts as let go.
     FocusLost,
     /// The window was closed.

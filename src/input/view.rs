@@ -1,9 +1,10 @@
 //! What a player at mouse and keyboard sees and does, for the picture.
 
-use super::CallView;
+use super::{BallWay, CallView};
 use crate::cue::Aim;
 use crate::ids::BallId;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// From where the picture is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,6 +130,11 @@ pub struct HumanView {
     /// Which way the ball that is met there leaves, without friction: a unit vector; zero if it
     /// meets a cushion.
     pub object_heading: DVec2,
+    /// Where the cue ball and the first ball that it meets will go, while aiming, if that is
+    /// wanted.
+    pub ways: Arc<Vec<BallWay>>,
+    /// How hard the stroke is taken to be for that [m/s].
+    pub expected_m_s: f64,
     /// What is announced with the stroke, while aiming.
     pub call: Option<CallView>,
     /// Any ball can be put anywhere, and shots can be taken back.

@@ -148,7 +148,9 @@ impl Lobby {
                 let (right, up) = (right * factor, up * factor);
                 self.unless_open(RawInput::Moved { right, up })
             }
-            RawInput::Wheel { .. } | RawInput::Picked { .. } => self.unless_open(report),
+            RawInput::Wheel { .. } | RawInput::Picked { .. } | RawInput::Aid(_) => {
+                self.unless_open(report)
+            }
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a player sets, and keeps from game to game.
 
 use crate::ids::PlayerId;
+use crate::input::AimAid;
 use crate::one_line::one_line;
 use crate::rules::Language;
 use crate::scene::{Entrant, PlayerKind, STRENGTH_MAX, STRENGTH_USUAL};
@@ -35,6 +36,8 @@ pub struct Settings {
     pub mouse_percent: u16,
     /// The window fills the screen.
     pub full_screen: bool,
+    /// What helps to aim.
+    pub aim_aid: AidChoice,
 }
 
 impl Default for Settings {
@@ -49,6 +52,7 @@ impl Default for Settings {
             volume_percent: 100,
             mouse_percent: 100,
             full_screen: false,
+            aim_aid: AidChoice::Line,
         }
     }
 }
@@ -173,6 +177,38 @@ impl Tongue {
     }
 }
 
+/// How much help a player wants while aiming.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AidChoice {
+    /// None.
+    None,
+    /// A straight line.
+    Line,
+    /// The ways of the balls to their end.
+    Ways,
+}
+
+impl AidChoice {
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        match self {
+            AidChoice::None => "aid_none",
+            AidChoice::Line => "aid_line",
+            AidChoice::Ways => "aid_ways",
+        }
+    }
+
+    /// What it is for the hand.
+    pub fn aid(self) -> AimAid {
+        match self {
+            AidChoice::None => AimAid::None,
+            AidChoice::Line => AimAid::Line,
+            AidChoice::Ways => AimAid::Ways,
+        }
+    }
+}
+
 /// One thing that can be set, by the name that pages give it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -199,6 +235,8 @@ pub enum Setting {
     MouseSpeed,
     /// Whether the window fills the screen.
     FullScreen,
+    /// What helps to aim.
+    AimAid,
 }
 
 /// What a setting can be: numbered places, from 0.
@@ -211,6 +249,7 @@ pub enum Range {
 }
 
 const SEATS: [Seat; 2] = [Seat::Human, Seat::Computer];
+const AIDS: [AidChoice; 3] = [AidChoice::None, AidChoice::Line, AidChoice::Ways];
 const TONGUES: [Tongue; 3] = [Tongue::System, Tongue::English, Tongue::German];
 
 /// Where `value` stands in a list; at its front if it does not.
@@ -246,6 +285,7 @@ impl Settings {
             // From one step on: a mouse that moves nothing is of no use.
             Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
             Setting::FullScreen => Range::Choice(2),
+            Setting::AimAid => Range::Choice(AIDS.len()),
         }
     }
 
@@ -263,6 +303,7 @@ impl Settings {
                 (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
             }
             Setting::FullScreen => self.full_screen.into(),
+            Setting::AimAid => place(&AIDS, &self.aim_aid),
         }
     }
 
@@ -285,6 +326,7 @@ impl Settings {
             Setting::Volume => self.volume_percent = u16::from(steps) * VOLUME_STEP,
             Setting::MouseSpeed => self.mouse_percent = (u16::from(steps) + 1) * MOUSE_STEP,
             Setting::FullScreen => self.full_screen = place == 1,
+            Setting::AimAid => self.aim_aid = AIDS[place],
         }
     }
 

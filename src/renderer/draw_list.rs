@@ -224,6 +224,7 @@ impl DrawList {
         match view.mode {
             HumanMode::Aiming | HumanMode::Stroking => {
                 list.show_aim(world, view, radii);
+                list.show_ways(view, radii);
                 list.show_call(view);
             }
             HumanMode::Placing => list.show_placing(view, radii),
@@ -255,6 +256,24 @@ impl DrawList {
             let to = object + (view.object_heading * OBJECT_WAY_M).extend(0.0);
             let from = object + (view.object_heading * radius_m).extend(0.0);
             self.line(from, to, radius_m, [1.0, 0.86, 0.35, 0.6]);
+        }
+    }
+
+    /// Where balls will go, and where they come to rest.
+    fn show_ways(&mut self, view: &HumanView, radii: &Radii) {
+        for way in view.ways.iter() {
+            let radius_m = radii.of(way.ball);
+            let [r, g, b] = match way.ball == view.cue_ball {
+                true => [1.0, 1.0, 1.0],
+                false => radii.set.look(way.ball).colour.map(|channel| 0.25 + 0.75 * channel),
+            };
+            for pair in way.points.windows(2) {
+                self.line(pair[0], pair[1], radius_m, [r, g, b, 0.75]);
+            }
+            if let Some(end) = way.points.last().filter(|_| way.rests) {
+                let (position, radius_m) = (end.as_vec3().to_array(), radius_m as f32);
+                self.ghosts.push(GhostBall { position, radius_m, colour: [r, g, b, 0.3] });
+            }
         }
     }
 

@@ -90,6 +90,7 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
         Setting::Language => words.get(settings.language.key()),
         Setting::Volume => percent(settings.volume_percent),
         Setting::MouseSpeed => percent(settings.mouse_percent),
+        Setting::AimAid => words.get(settings.aim_aid.key()),
         Setting::FullScreen => words.get(if settings.full_screen { "on" } else { "off" }),
     }
 }

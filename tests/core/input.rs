@@ -1,5 +1,7 @@
 //! A person at mouse and keyboard, from raw reports to the game.
 
+/// What is seen ahead.
+mod ahead;
 /// Aiming and placing: what is held how, and what may not be.
 mod aim;
 /// Calls, options, training.

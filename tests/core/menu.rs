@@ -16,7 +16,7 @@ use hapticbillard::scene::{PlayerKind, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-const SETTINGS: [Setting; 9] = [
+const SETTINGS: [Setting; 10] = [
     Setting::Game,
     Setting::PlayerOne,
     Setting::StrengthOne,
@@ -26,6 +26,7 @@ const SETTINGS: [Setting; 9] = [
     Setting::Volume,
     Setting::MouseSpeed,
     Setting::FullScreen,
+    Setting::AimAid,
 ];
 
 fn menu() -> Menu {

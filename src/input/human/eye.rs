@@ -1,9 +1,8 @@
 //! What the person sees, and from where.
 
 use super::super::camera::Viewpoint;
-use super::super::{HumanMode, HumanView};
+use super::super::{AimAid, HumanMode, HumanView};
 use super::{Human, KeyStroke, Stage};
-use glam::DVec2;
 
 impl Human {
     /// What the picture shows of the player now.
@@ -17,6 +16,8 @@ impl Human {
             cue_ball: self.cue_ball(),
             look: self.camera.looking(self.is_bird),
             overlay: self.overlay,
+            ways: self.ways_ahead(),
+            expected_m_s: self.expected_m_s(),
             ..HumanView::default()
         };
         match &self.stage {
@@ -34,16 +35,14 @@ impl Human {
             }
             Stage::Aiming => {
                 view.mode = HumanMode::Aiming;
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+                self.show_ghost(&mut view);
             }
             Stage::Stroking(tip) => {
                 view.mode = HumanMode::Stroking;
                 view.pulled_back_m = tip.pulled_back_m();
                 let by_key = self.key_stroke.as_ref().map(KeyStroke::speed_m_s);
                 view.strength_m_s = by_key.unwrap_or(tip.speed_m_s().abs());
-                view.ghost = self.ghost.map(|(place, _)| place);
-                view.object_heading = self.ghost.map_or(DVec2::ZERO, |(_, heading)| heading);
+                self.show_ghost(&mut view);
             }
         }
         if matches!(self.stage, Stage::Aiming | Stage::Stroking(_)) {
@@ -53,6 +52,13 @@ impl Human {
             view.mode = HumanMode::Paused;
         }
         view
+    }
+
+    /// The straight way to what is met first, if it is wanted.
+    fn show_ghost(&self, view: &mut HumanView) {
+        if let Some((place, heading)) = self.ghost.filter(|_| self.ahead.aid != AimAid::None) {
+            (view.ghost, view.object_heading) = (Some(place), heading);
+        }
     }
 
     /// The camera goes where the stage wants it.

@@ -1,8 +1,9 @@
 //! A turn by keys alone: what held keys move in a tick, and a stroke by one key.
 
 use super::super::feel::{
-    AIM_RAD_PER_S, ELEVATION_RAD_PER_S, KEY_PULL_M_PER_S, KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S,
-    OFFSET_PER_S, PLACING_M_PER_S, PULL_MAX_M, STROKE_FILTER_RAD_S, STROKE_M_PER_HEIGHT,
+    AIM_RAD_PER_S, ELEVATION_MAX_RAD, ELEVATION_RAD_PER_S, KEY_PULL_M_PER_S, KEY_SPEED_LEAST_M_S,
+    KEY_SPEED_MOST_M_S, OFFSET_PER_S, PLACING_M_PER_S, PULL_MAX_M, STROKE_FILTER_RAD_S,
+    STROKE_M_PER_HEIGHT,
 };
 use super::super::tip::Tip;
 use super::{Human, Stage};
@@ -121,5 +122,16 @@ impl Human {
             self.key_stroke = None;
         }
         step.unwrap_or(0.0) / STROKE_M_PER_HEIGHT
+    }
+
+    /// Raises the butt.
+    pub(super) fn raise(&mut self, by_rad: f64) {
+        let is_aiming = matches!(self.stage, Stage::Aiming);
+        if self.paused || !is_aiming || self.turn_workspace(0.0, by_rad) {
+            return;
+        }
+        // From what is seen, so that lowering a cue that something holds up acts at once.
+        self.raised_rad = (self.aim.elevation_rad + by_rad).clamp(0.0, ELEVATION_MAX_RAD);
+        self.change_aim(|_| {});
     }
 }
