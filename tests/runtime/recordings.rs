@@ -74,7 +74,8 @@ fn match_that_gets(signal: Signal, name: &str) -> Output {
             continue;
         }
         let summary = verify(&path);
-        assert_eq!(summary["complete"], is_whole, "{}", path.display());
+        // A game may have been written to its end and have had no time for its name.
+        assert!(summary["complete"] == true || !is_whole, "{}", path.display());
         assert!(0 < summary["verified"].as_u64().unwrap(), "{}", path.display());
         *(if is_whole { &mut whole } else { &mut cut_off }) += 1;
     }
