@@ -47,7 +47,7 @@ const ABOUT: &str = "Billiards with real physics: a game, and a toolbox around t
 
 const EXAMPLES: &str = "\
 Examples:
-  hapticbillard                          play eight-ball against the computer
+  hapticbillard                          the main menu of the game
   hapticbillard scenes                   list the shipped scenes
   hapticbillard simulate --scene break_shot --json
   hapticbillard match --scene eight_ball_headless --games 10
