@@ -3,6 +3,8 @@
 /// The tables, by name: the text of `config/tables/NAME.toml`.
 pub const TABLES: &[(&str, &str)] = &[
     ("pool-9ft", include_str!("../config/tables/pool-9ft.toml")),
+    ("pool-8ft", include_str!("../config/tables/pool-8ft.toml")),
+    ("pool-7ft", include_str!("../config/tables/pool-7ft.toml")),
     ("snooker-12ft", include_str!("../config/tables/snooker-12ft.toml")),
     ("carom-10ft", include_str!("../config/tables/carom-10ft.toml")),
 ];

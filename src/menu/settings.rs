@@ -5,6 +5,7 @@ use crate::input::AimAid;
 use crate::one_line::one_line;
 use crate::rules::Language;
 use crate::scene::{Entrant, PlayerKind, STRENGTH_MAX, STRENGTH_USUAL};
+use crate::shipped;
 use serde::{Deserialize, Serialize};
 
 /// Steps of what is set in steps.
@@ -20,6 +21,8 @@ const MOUSE_MAX: u16 = 400;
 pub struct Settings {
     /// What is played.
     pub game: GameChoice,
+    /// How large the table is, where pool is played.
+    pub table: TableChoice,
     /// Who plays first.
     pub player_1: Seat,
     /// How strong, from 0 to 100, if that is a computer.
@@ -44,6 +47,7 @@ impl Default for Settings {
     fn default() -> Self {
         Settings {
             game: GameChoice::WpaEightBall,
+            table: TableChoice::NineFoot,
             player_1: Seat::Human,
             strength_1: STRENGTH_USUAL,
             player_2: Seat::Computer,
@@ -116,11 +120,48 @@ impl GameChoice {
         self.scene()
     }
 
+    /// Whether it is played on a pool table.
+    pub fn is_pool(self) -> bool {
+        !matches!(self, GameChoice::Snooker | GameChoice::ThreeCushion | GameChoice::FreeCarom)
+    }
+
     /// How many play.
     pub fn seats(self) -> usize {
         match self {
             GameChoice::FreePlay | GameChoice::Training => 1,
             _ => 2,
+        }
+    }
+}
+
+/// A size of pool table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TableChoice {
+    /// That of tournaments.
+    NineFoot,
+    /// That of homes.
+    EightFoot,
+    /// That of bars.
+    SevenFoot,
+}
+
+impl TableChoice {
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        match self {
+            TableChoice::NineFoot => "nine_foot",
+            TableChoice::EightFoot => "eight_foot",
+            TableChoice::SevenFoot => "seven_foot",
+        }
+    }
+
+    /// The shipped table.
+    pub fn preset(self) -> &'static str {
+        match self {
+            TableChoice::NineFoot => "pool-9ft",
+            TableChoice::EightFoot => "pool-8ft",
+            TableChoice::SevenFoot => "pool-7ft",
         }
     }
 }
@@ -215,6 +256,8 @@ impl AidChoice {
 pub enum Setting {
     /// What is played.
     Game,
+    /// How large the table is.
+    Table,
     /// Who plays first.
     #[serde(rename = "player_1")]
     PlayerOne,
@@ -248,6 +291,8 @@ pub enum Range {
     Scale(usize),
 }
 
+const TABLES: [TableChoice; 3] =
+    [TableChoice::NineFoot, TableChoice::EightFoot, TableChoice::SevenFoot];
 const SEATS: [Seat; 2] = [Seat::Human, Seat::Computer];
 const AIDS: [AidChoice; 3] = [AidChoice::None, AidChoice::Line, AidChoice::Ways];
 const TONGUES: [Tongue; 3] = [Tongue::System, Tongue::English, Tongue::German];
@@ -276,6 +321,7 @@ impl Settings {
     pub fn range(setting: Setting) -> Range {
         match setting {
             Setting::Game => Range::Choice(GameChoice::ALL.len()),
+            Setting::Table => Range::Choice(TABLES.len()),
             Setting::PlayerOne | Setting::PlayerTwo => Range::Choice(SEATS.len()),
             Setting::StrengthOne | Setting::StrengthTwo => {
                 Range::Scale((STRENGTH_MAX / STRENGTH_STEP).into())
@@ -293,6 +339,7 @@ impl Settings {
     pub fn place(&self, setting: Setting) -> usize {
         match setting {
             Setting::Game => place(&GameChoice::ALL, &self.game),
+            Setting::Table => place(&TABLES, &self.table),
             Setting::PlayerOne => place(&SEATS, &self.player_1),
             Setting::StrengthOne => (self.strength_1.min(STRENGTH_MAX) / STRENGTH_STEP).into(),
             Setting::PlayerTwo => place(&SEATS, &self.player_2),
@@ -318,6 +365,7 @@ impl Settings {
         let steps = u8::try_from(place).unwrap_or(u8::MAX);
         match setting {
             Setting::Game => self.game = GameChoice::ALL[place],
+            Setting::Table => self.table = TABLES[place],
             Setting::PlayerOne => self.player_1 = SEATS[place],
             Setting::StrengthOne => self.strength_1 = steps.saturating_mul(STRENGTH_STEP),
             Setting::PlayerTwo => self.player_2 = SEATS[place],
@@ -334,12 +382,20 @@ impl Settings {
     pub fn is_of_use(&self, setting: Setting) -> bool {
         let two = self.game.seats() == 2;
         match setting {
+            Setting::Table => self.game.is_pool(),
             Setting::PlayerOne => two,
             Setting::StrengthOne => two && self.player_1 == Seat::Computer,
             Setting::PlayerTwo => two,
             Setting::StrengthTwo => two && self.player_2 == Seat::Computer,
             _ => true,
         }
+    }
+
+    /// The shipped scene of the game that is set, on the table that is set.
+    pub fn scene_text(&self) -> String {
+        let text = shipped::scene(self.game.scene()).unwrap_or_default();
+        let usual = format!("preset = {:?}", TableChoice::NineFoot.preset());
+        text.replace(&usual, &format!("preset = {:?}", self.table.preset()))
     }
 
     /// Who plays the game that is set, from player 1 on. Who plays alone is a person.

@@ -83,6 +83,7 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
     let percent = |value: u16| words.fill("percent", "value", &value.to_string());
     match setting {
         Setting::Game => words.get(settings.game.key()),
+        Setting::Table => words.get(settings.table.key()),
         Setting::PlayerOne => words.get(settings.player_1.key()),
         Setting::PlayerTwo => words.get(settings.player_2.key()),
         Setting::StrengthOne => settings.strength_1.to_string(),

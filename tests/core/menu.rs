@@ -8,7 +8,7 @@ use hapticbillard::ids::PlayerId;
 use hapticbillard::input::{Button, Key, RawInput};
 use hapticbillard::menu::{
     Act, Deed, Effect, GameChoice, Lobby, Menu, MenuInput, Order, Pages, Pointed, Range, Seat,
-    Setting, Settings, Tongue,
+    Setting, Settings, TableChoice, Tongue,
 };
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words, player_names};
 use hapticbillard::rules::Language;
@@ -16,8 +16,9 @@ use hapticbillard::scene::{PlayerKind, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-const SETTINGS: [Setting; 10] = [
+const SETTINGS: [Setting; 11] = [
     Setting::Game,
+    Setting::Table,
     Setting::PlayerOne,
     Setting::StrengthOne,
     Setting::PlayerTwo,
@@ -139,10 +140,15 @@ fn every_game_of_the_menu_is_a_scene_with_its_players() {
     let words = Words::of_menus(Language::English);
     for game in GameChoice::ALL {
         let settings = Settings { game, player_1: Seat::Computer, ..Settings::default() };
-        let text = hapticbillard::shipped::scene(game.scene()).unwrap();
-        let scene = Scene::parse(game.scene(), text).unwrap();
+        let scene = Scene::parse(game.scene(), &settings.scene_text()).unwrap();
         assert_eq!(scene.players.len(), game.seats(), "{game:?}");
         assert!(scene.renderer.is_some(), "{game:?} has a picture");
+        let table = TableChoice::SevenFoot;
+        assert_eq!(settings.is_of_use(Setting::Table), game.is_pool());
+        let small = Settings { table, ..settings.clone() }.scene_text();
+        let table = Scene::parse(game.scene(), &small).unwrap().build_table(&mut |_| panic!());
+        let length_m = table.unwrap().bed.unwrap().length_m;
+        assert_eq!(length_m < 2.0, game.is_pool(), "{game:?}: {length_m} m");
         let kinds: Vec<_> = settings.entrants().into_iter().map(|one| one.kind.unwrap()).collect();
         let names = player_names(&settings, &words);
         match game.seats() {
@@ -165,12 +171,12 @@ fn keys_go_round_over_what_is_of_use() {
     assert_eq!(menu.hear(MenuInput::Accept), None);
     assert_eq!(seen(&menu), ("mode".into(), "start".into()));
     let mut lines = Vec::new();
-    for _ in 0..6 {
+    for _ in 0..7 {
         menu.hear(MenuInput::Down);
         lines.push(seen(&menu).1);
     }
     // A person has no strength to set.
-    assert_eq!(lines, ["game", "player_1", "player_2", "strength", "back", "start"]);
+    assert_eq!(lines, ["game", "table", "player_1", "player_2", "strength", "back", "start"]);
     menu.hear(MenuInput::Up);
     assert_eq!(menu.hear(MenuInput::Accept), None);
     assert_eq!(seen(&menu), ("main".into(), "play".into()));
@@ -194,7 +200,7 @@ fn a_pointer_means_chooses_and_pulls() {
     assert_eq!(menu.hear(press(0, Some(0.9))), Some(Deed::Changed));
     assert_eq!(menu.settings.language, Tongue::System);
     menu.open("mode");
-    assert_eq!(menu.hear(press(3, Some(1.0))), None, "a person has no strength");
+    assert_eq!(menu.hear(press(4, Some(1.0))), None, "a person has no strength");
     assert_eq!(menu.settings.strength_1, 50);
     assert_eq!(menu.hear(press(0, None)), Some(Deed::Start));
     assert_eq!(menu.hear(press(99, None)), None);

@@ -208,8 +208,8 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "[table]\npreset = \"bagatelle\"\n",
-        "5: table.preset = \"bagatelle\": this build knows \"pool-9ft\", \"snooker-12ft\", \
-         \"carom-10ft\"; write for example preset = \"pool-9ft\"",
+        "5: table.preset = \"bagatelle\": this build knows \"pool-9ft\", \"pool-8ft\", \
+         \"pool-7ft\", \"snooker-12ft\", \"carom-10ft\"; write for example preset = \"pool-9ft\"",
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\nlength_m = 3\n",

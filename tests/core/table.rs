@@ -122,11 +122,23 @@ fn rolling_ball_meets_the_nose_at_its_height() {
     }
 }
 
+/// All sizes of pool table, with the length and width of their beds [m].
+const POOL: [(&str, f64, f64); 3] =
+    [("pool-9ft", 2.54, 1.27), ("pool-8ft", 2.2352, 1.1176), ("pool-7ft", 1.9812, 0.9906)];
+
 #[test]
-fn body_is_closed_and_has_about_ten_thousand_faces() {
-    let table = pool();
+fn bodies_are_closed_and_of_their_size_and_have_about_ten_thousand_faces() {
+    for (name, length_m, width_m) in POOL {
+        let table = Table::preset(name).unwrap();
+        let bed = table.bed.unwrap();
+        assert_eq!((bed.length_m, bed.width_m), (length_m, width_m), "{name}");
+        check_body(&table);
+    }
+}
+
+fn check_body(table: &Table) {
     assert_eq!(table.mesh.open_edges(), []);
-    assert!((10_000..=12_000).contains(&table.mesh.faces.len()), "{}", table.mesh.faces.len());
+    assert!((9_000..=12_000).contains(&table.mesh.faces.len()), "{}", table.mesh.faces.len());
     for i in 0..table.mesh.faces.len() {
         let [a, b, c] = table.mesh.corners(i);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
@@ -188,11 +200,16 @@ fn cushions_near(table: &Table, pocket: &Pocket) -> Vec<[DVec3; 3]> {
 
 #[test]
 fn ball_rolls_through_every_mouth_and_down_to_the_bottom() {
-    let table = pool();
+    for (name, ..) in POOL {
+        check_pockets(&Table::preset(name).unwrap());
+    }
+}
+
+fn check_pockets(table: &Table) {
     let radius = 0.5 * BALL_M;
     for pocket in &table.pockets {
-        let cushions = cushions_near(&table, pocket);
-        let walls = faces(&table, |s| s == Surface::Pocket(pocket.id));
+        let cushions = cushions_near(table, pocket);
+        let walls = faces(table, |s| s == Surface::Pocket(pocket.id));
         let way = pocket.centre - pocket.target();
         assert!(way.normalize().dot(pocket.heading) > 1.0 - 1e-12);
         for i in -20..=20 {
@@ -205,7 +222,7 @@ fn ball_rolls_through_every_mouth_and_down_to_the_bottom() {
             let (_, distance) = closest_point(&walls, p);
             assert!(distance > radius + 0.01, "{}: {distance}", pocket.id);
         }
-        let bottom = faces(&table, |s| s == Surface::PocketBottom(pocket.id));
+        let bottom = faces(table, |s| s == Surface::PocketBottom(pocket.id));
         let highest = bottom.iter().flatten().map(|p| p.z).fold(f64::MIN, f64::max);
         assert!(highest + BALL_M < 0.0, "a ball on the bottom lies below the cloth");
     }

@@ -10,12 +10,12 @@ use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{DrawList, Radii, Words, player_names};
 use hapticbillard::replay::{RecordedInput, Recording};
 use hapticbillard::rules::Language;
-use hapticbillard::scene::Overrides;
+use hapticbillard::scene::{Overrides, Scene};
 use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::files::load_scene;
+use hapticbillard_actors::files::LoadedScene;
 use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{
     DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Telemetry, Watch,
@@ -110,7 +110,9 @@ fn stage_of(settings: &Settings, language: Language) -> Result<Stage, Error> {
         names: player_names(settings, &Words::of_menus(language)),
         ..Overrides::default()
     };
-    Ok(Stage::new(&load_scene(name)?, name)?.with(overrides))
+    let text = settings.scene_text();
+    let scene = Scene::parse(&format!("{name}.toml"), &text)?;
+    Ok(Stage::new(&LoadedScene { scene, text, folder: None }, name)?.with(overrides))
 }
 
 /// No game of the menus is like another.

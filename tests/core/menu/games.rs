@@ -110,8 +110,7 @@ impl Seated {
         let lobby = self.lobby.take().unwrap();
         let settings = lobby.menu().unwrap().settings.clone();
         let name = settings.game.scene();
-        let text = hapticbillard::shipped::scene(name).unwrap();
-        let mut scene = Scene::parse(name, text).unwrap();
+        let mut scene = Scene::parse(name, &settings.scene_text()).unwrap();
         let players = settings.entrants();
         Overrides { seed: Some(11), players, ..Overrides::default() }.apply(&mut scene);
         let table = Arc::new(Table::preset("pool-9ft").unwrap());
