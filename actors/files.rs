@@ -217,6 +217,14 @@ pub fn recordings_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("recordings"))
 }
 
+/// Keeps a picture of a game in the folder for pictures, under the time of now. Returns where.
+pub fn keep_picture(png: &[u8]) -> Result<PathBuf, Error> {
+    let name = Path::new(&new_recording_name()).with_extension("png");
+    let path = data_folder()?.join("pictures").join(name);
+    write_whole(&path, png)?;
+    Ok(path)
+}
+
 /// The file of what a player has set.
 pub fn settings_file() -> Result<PathBuf, Error> {
     directories::ProjectDirs::from("", "", "hapticbillard")

@@ -61,7 +61,11 @@ pub fn png(
     hud: &Hud,
     size: (u32, u32),
 ) -> Result<Vec<u8>, NoPicture> {
-    let rows = written(table, list, hud, size)?;
+    encoded(&written(table, list, hud, size)?, size)
+}
+
+/// Pixels as a PNG file, rows from the top, without their opacity.
+fn encoded(rows: &[[u8; 4]], size: (u32, u32)) -> Result<Vec<u8>, NoPicture> {
     let bytes: Vec<u8> = rows.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
     let mut file = Vec::new();
     PngEncoder::new(&mut file)

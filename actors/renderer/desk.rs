@@ -1,5 +1,6 @@
 //! What happens in a window: devices, the menu, the game, the next picture.
 
+use super::encoded;
 use super::hud;
 use super::keys::{button, key, notches};
 use super::pointer::Pointer;
@@ -20,6 +21,8 @@ use winit::window::{Fullscreen, Window};
 
 /// A picture takes at least so long: 60 a second are enough.
 const FRAME: Duration = Duration::from_micros(16_600);
+/// How long it is said where a picture went.
+const SAID: Duration = Duration::from_secs(4);
 /// What was set is written when nothing more was set for so long: a scale is pulled in many steps.
 const KEEP_AFTER: Duration = Duration::from_millis(700);
 
@@ -48,6 +51,10 @@ pub(super) struct Desk<'a> {
     pointer: Pointer,
     start: Instant,
     due: Instant,
+    /// The next picture is kept in a file.
+    wants_picture: bool,
+    /// What is said of that, and until when.
+    said: Option<(String, Instant)>,
     /// What the window shows now; none if it must be drawn again.
     shown: Option<(DrawList, Hud)>,
     is_focused: bool,
@@ -85,6 +92,8 @@ impl<'a> Desk<'a> {
             pointer: Pointer::new(),
             start: now,
             due: now,
+            wants_picture: false,
+            said: None,
             shown: None,
             is_focused: false,
             graphics,
@@ -192,6 +201,12 @@ impl<'a> Desk<'a> {
 
     /// A device says something.
     fn hear(&mut self, report: RawInput, flow: &mut ControlFlow) {
+        if let RawInput::Key { key: Key::Picture, down } = report {
+            // What stands there now is drawn again.
+            self.wants_picture |= down;
+            self.shown = None;
+            return;
+        }
         let orders = self.lobby.hear(report, self.pointed());
         self.obey(orders, flow);
     }
@@ -390,7 +405,9 @@ impl<'a> Desk<'a> {
             }
         }
         self.hold_pointer();
-        let Some((list, written)) = self.seen() else { return };
+        let Some((list, mut written)) = self.seen() else { return };
+        self.said.take_if(|(_, until)| *until < Instant::now());
+        written.message.extend(self.said.iter().map(|(said, _)| said.clone()));
         let size = self.window.inner_size();
         let is_same = self.shown.as_ref().is_some_and(|(a, b)| (a, b) == (&list, &written));
         if is_same || size.width == 0 || size.height == 0 {
@@ -416,11 +433,29 @@ impl<'a> Desk<'a> {
             stage.draw(&list, viewport);
             gui.render()
         });
+        let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
+        let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
         match drawn.map(|_| self.graphics.swap_buffers()) {
             Ok(Ok(())) => self.shown = Some((list, written)),
             Ok(Err(error)) => log::warn!("the window shows nothing: {error}"),
             Err(error) => log::warn!("the window shows nothing: {error}"),
         }
+        if let Some(rows) = picture {
+            self.keep_picture(&rows, (size.width, size.height));
+        }
+    }
+
+    /// Writes what the window shows into a file, and says where.
+    fn keep_picture(&mut self, rows: &[[u8; 4]], size: (u32, u32)) {
+        let kept = encoded(rows, size)
+            .map_err(|error| error.to_string())
+            .and_then(|png| self.host.picture(&png).map_err(|error| error.to_string()));
+        let words = Words::new(self.language());
+        let said = match kept {
+            Ok(path) => words.fill("picture", "path", &path.display().to_string()),
+            Err(reason) => words.fill("no_picture", "reason", &reason),
+        };
+        self.said = Some((said, Instant::now() + SAID));
     }
 
     /// While time stands still, something is to be chosen or no game goes on, the pointer belongs

@@ -12,6 +12,7 @@ use hapticbillard::rules::Language;
 use hapticbillard::table::Table;
 use hapticbillard::tick::Finished;
 use std::panic;
+use std::path::PathBuf;
 use std::sync::Arc;
 use three_d::context::{HasContext, RENDERER};
 use three_d::{Context, SurfaceSettings, WindowedContext};
@@ -71,6 +72,12 @@ pub trait Host {
     /// # Errors
     /// What could not be finished after it.
     fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error>;
+
+    /// The player wants to keep a picture, which is a PNG file. Returns where it is.
+    ///
+    /// # Errors
+    /// It could not be written.
+    fn picture(&mut self, png: &[u8]) -> Result<PathBuf, Error>;
 
     /// What is set shall be there the next time.
     fn keep(&mut self, settings: &Settings);

@@ -86,4 +86,6 @@ pub enum Key {
     PageDown,
     /// F1: help.
     Help,
+    /// F12: the window is written into a picture.
+    Picture,
 }

@@ -183,12 +183,14 @@ fn game(folder: &Path, display: &str, seed: u64) -> Seen {
 
     play(&desk, &table);
 
-    // The recording is closed while the window still shows who won; q closes it.
+    // The recording is closed while the window still shows who won; the last line of the menu
+    // over it ends the program.
     desk.event("keydown f");
     desk.until("the end of the recording", || file.exists().then_some(()));
     desk.event("keyup f");
     desk.picture("over.png");
-    desk.event("key q");
+    desk.event("key Up");
+    desk.event("key Return");
     let status = window.0.wait().unwrap();
     assert!(status.success(), "{status}");
 

@@ -15,7 +15,7 @@ use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::files::LoadedScene;
+use hapticbillard_actors::files::{LoadedScene, keep_picture};
 use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{
     DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Telemetry, Watch,
@@ -220,6 +220,10 @@ impl Host for House<'_> {
         Ok(self.out.flush()?)
     }
 
+    fn picture(&mut self, png: &[u8]) -> Result<PathBuf, Error> {
+        keep_picture(png)
+    }
+
     fn keep(&mut self, settings: &Settings) {
         kept_settings::keep(settings);
     }
@@ -239,6 +243,10 @@ impl Host for Replay<'_> {
 
     fn ended(&mut self, _: &Result<Finished, RunError>) -> Result<(), Error> {
         Ok(())
+    }
+
+    fn picture(&mut self, png: &[u8]) -> Result<PathBuf, Error> {
+        keep_picture(png)
     }
 
     fn keep(&mut self, _: &Settings) {}
