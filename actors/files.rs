@@ -47,25 +47,31 @@ pub fn open_lines(path: &Path) -> Result<File, Error> {
     Ok(file)
 }
 
-/// A file of text that may be missing.
-pub fn read_if_there(path: &Path) -> Result<Option<String>, Error> {
-    match fs::read_to_string(path) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(reason) => Err(Error::Read { path: path.to_path_buf(), reason }),
+/// The text of a file that may be missing, if it has at most `limit` bytes.
+pub fn read_if_there(path: &Path, limit: u64) -> Result<Option<String>, Error> {
+    match read_text(path, limit) {
+        Err(Error::Read { reason, .. }) if reason.kind() == io::ErrorKind::NotFound => Ok(None),
+        read => read.map(Some),
     }
 }
+
+/// How many files that cannot be understood are kept beside each other.
+const ASIDE: usize = 20;
 
 /// Puts a file that cannot be understood aside, under another name, which is returned: somebody
 /// may have written it.
 pub fn put_aside(path: &Path) -> Result<PathBuf, Error> {
-    let mut aside = path.as_os_str().to_owned();
-    aside.push(".bad");
-    let aside = PathBuf::from(aside);
-    match fs::rename(path, &aside) {
-        Ok(()) => Ok(aside),
-        Err(reason) => Err(Error::Write { path: aside, reason }),
-    }
+    let names = (1..=ASIDE).map(|n| {
+        let mut aside = path.as_os_str().to_owned();
+        aside.push(if n == 1 { ".bad".to_string() } else { format!(".bad{n}") });
+        PathBuf::from(aside)
+    });
+    let mut free = names.filter(|name| !name.exists());
+    let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
+    let many = || io::Error::other("there are too many files that were put aside");
+    let aside = free.next().ok_or_else(|| failed(many()))?;
+    fs::rename(path, &aside).map_err(failed)?;
+    Ok(aside)
 }
 
 /// Writes a file whole: first under another name, then renamed.

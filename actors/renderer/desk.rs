@@ -51,6 +51,10 @@ pub(super) struct Desk<'a> {
     pointer: Pointer,
     start: Instant,
     due: Instant,
+    /// The window shall fill the screen, as it is set.
+    is_full: bool,
+    /// The key for pictures is down.
+    is_picture_held: bool,
     /// The next picture is kept in a file.
     wants_picture: bool,
     /// What is said of that, and until when.
@@ -82,7 +86,9 @@ impl<'a> Desk<'a> {
             stop: setup.stop,
             system: setup.language,
             words: Words::of_menus(setup.language),
+            is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
             lobby: Lobby::new(setup.menu),
+            is_picture_held: false,
             backdrop: setup.backdrop.map(|backdrop| (backdrop, None)),
             game: None,
             unkept: None,
@@ -202,9 +208,11 @@ impl<'a> Desk<'a> {
     /// A device says something.
     fn hear(&mut self, report: RawInput, flow: &mut ControlFlow) {
         if let RawInput::Key { key: Key::Picture, down } = report {
-            // What stands there now is drawn again.
-            self.wants_picture |= down;
-            self.shown = None;
+            if down && !self.is_picture_held {
+                // What stands there now is drawn again.
+                (self.wants_picture, self.shown) = (true, None);
+            }
+            self.is_picture_held = down;
             return;
         }
         let orders = self.lobby.hear(report, self.pointed());
@@ -321,15 +329,21 @@ impl<'a> Desk<'a> {
         let has_result = game.board.over.is_some();
         let Some(finished) = game.join() else { return };
         let told = self.host.ended(&finished);
-        if let Err(error) = finished.map_err(Error::from).and(told) {
+        if let Err(error) = finished {
             self.game = None;
             self.lobby.open_main();
-            self.complain(error, flow);
-        } else if self.stop.is_set() {
+            self.complain(error.into(), flow);
+            return;
+        }
+        if self.stop.is_set() {
             flow.set_exit();
         } else {
             let orders = self.lobby.ended(has_result);
             self.obey(orders, flow);
+        }
+        // What went wrong behind the game does not hide how it ended.
+        if let Err(error) = told {
+            self.complain(error, flow);
         }
     }
 
@@ -338,7 +352,7 @@ impl<'a> Desk<'a> {
         self.unkept = Some(Instant::now());
         self.words = Words::of_menus(self.language());
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
-        if is_full != self.window.fullscreen().is_some() {
+        if std::mem::replace(&mut self.is_full, is_full) != is_full {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
         }
         self.apply();

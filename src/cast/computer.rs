@@ -124,9 +124,6 @@ impl Surroundings<'_> {
         Ok(settings)
     }
 
-    /// The exact solver wherever it knows the scene's contact laws, whatever the game itself is
-    /// computed with: it takes a fraction of the time, and a player who reckons with the laws need
-    /// not reckon with the errors of a step. Only profile `2009` has laws that need steps.
     /// A table on which a person looks ahead; none where nobody sits at mouse and keyboard, nobody
     /// has a cue, or commands do not act at once.
     pub fn foresight(&self, tip_radius_m: f64) -> Result<Option<Foresight>, PhysicsError> {
@@ -138,6 +135,9 @@ impl Surroundings<'_> {
         Ok((delay_s == 0.0).then(|| Foresight::new(simulation, balls, tip_radius_m)))
     }
 
+    /// The exact solver wherever it knows the scene's contact laws, whatever the game itself is
+    /// computed with: it takes a fraction of the time, and a player who reckons with the laws need
+    /// not reckon with the errors of a step. Only profile `2009` has laws that need steps.
     fn own_simulation(&self) -> Result<Own, PhysicsError> {
         let settings = &self.scene.physics;
         match (settings.solver, settings.profile) {

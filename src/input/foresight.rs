@@ -57,7 +57,8 @@ pub struct BallWay {
 /// A table of one's own, to look ahead on.
 #[derive(Debug, Clone)]
 pub struct Foresight {
-    simulation: Simulation,
+    /// Shared: whoever holds it is copied every tick.
+    simulation: Arc<Simulation>,
     balls: Arc<Vec<Ball>>,
     tip_radius_m: f64,
 }
@@ -66,7 +67,7 @@ impl Foresight {
     /// Looks ahead with this simulation, whose balls may be anywhere. Commands must act at once in
     /// it: the event-driven solver.
     pub fn new(simulation: Simulation, balls: Vec<Ball>, tip_radius_m: f64) -> Self {
-        Foresight { simulation, balls: Arc::new(balls), tip_radius_m }
+        Foresight { simulation: Arc::new(simulation), balls: Arc::new(balls), tip_radius_m }
     }
 
     /// Where the cue ball goes, and the ball that it meets first, if the tip meets it so fast

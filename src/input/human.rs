@@ -399,6 +399,8 @@ impl Human {
     /// hand that has gone through the ball has made its stroke, and the tip follows.
     fn release(&mut self, up: f64) {
         match &mut self.stage {
+            // A key strikes.
+            Stage::Stroking(_) if self.key_stroke.is_some() => {}
             Stage::Stroking(tip) if tip.is_hand_through(up) => tip.let_go(up),
             _ => self.let_go(),
         }

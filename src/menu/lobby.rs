@@ -1,6 +1,6 @@
 //! Who hears what the devices say: a menu or the game; and what becomes of either.
 
-use super::{Deed, Menu, MenuInput};
+use super::{Act, Deed, Menu, MenuInput};
 use crate::input::{Button, Key, RawInput};
 
 /// What a window has to do next, in order.
@@ -52,7 +52,10 @@ pub struct Lobby {
     is_resuming: bool,
     /// Whoever plays has had enough of it.
     is_leaving: bool,
+    /// Keys that are down, whoever has heard of it.
     held: Vec<Key>,
+    /// Those of them whose press the game has heard: it hears their release too.
+    told: Vec<Key>,
     /// The line of a menu whose scale the pointer holds.
     dragged: Option<usize>,
 }
@@ -61,8 +64,8 @@ impl Lobby {
     /// Before the first game. Without menus there is one game, and nothing after it.
     pub fn new(menu: Option<Menu>) -> Self {
         let (is_resuming, is_leaving) = (false, false);
-        let (held, dragged) = (Vec::new(), None);
-        Lobby { menu, game: Game::None, is_resuming, is_leaving, held, dragged }
+        let (held, told, dragged) = (Vec::new(), Vec::new(), None);
+        Lobby { menu, game: Game::None, is_resuming, is_leaving, held, told, dragged }
     }
 
     /// The menus.
@@ -95,9 +98,7 @@ impl Lobby {
     pub fn began(&mut self) {
         self.game = Game::Running;
         (self.is_resuming, self.is_leaving) = (false, false);
-        if let Some(menu) = &mut self.menu {
-            menu.close();
-        }
+        self.close();
     }
 
     /// The game has ended: with a result, which everybody shall see, or not. What follows.
@@ -121,9 +122,13 @@ impl Lobby {
         true
     }
 
-    /// Looks whether time stands still in the game: then the menu of the pause opens.
+    /// Looks whether time stands still in the game: then the menu of the pause opens, and otherwise
+    /// it is not over a game that goes on.
     pub fn see(&mut self, is_paused: bool) -> Vec<Order> {
         self.is_resuming &= is_paused;
+        if !is_paused && self.game == Game::Running {
+            self.close();
+        }
         let opens = is_paused && self.is_playing() && !self.is_resuming && !self.is_leaving;
         if opens && self.menu.is_some() {
             self.open("pause");
@@ -139,6 +144,7 @@ impl Lobby {
             RawInput::Button { button, down } => self.button(button, down, pointed),
             RawInput::FocusLost => {
                 self.held.clear();
+                self.told.clear();
                 self.dragged = None;
                 vec![Order::Tell(report)]
             }
@@ -175,25 +181,40 @@ impl Lobby {
     }
 
     fn key(&mut self, key: Key, down: bool) -> Vec<Order> {
-        if self.is_menu_open() {
-            // Repeats of a held key go on along the lines.
-            let input = menu_input(key).filter(|_| down);
-            return input.map_or_else(Vec::new, |input| self.move_menu(input));
-        }
-        if self.game == Game::Over {
-            let ends = down && matches!(key, Key::Escape | Key::Letter('q'));
-            return if ends { vec![Order::Quit] } else { Vec::new() };
-        }
-        // Repeats of a held key are not reported.
-        if down == self.held.contains(&key) {
-            return Vec::new();
-        }
+        // A held key is reported again and again.
+        let is_again = self.held.contains(&key);
+        self.held.retain(|held| *held != key);
         if down {
             self.held.push(key);
-        } else {
-            self.held.retain(|held| *held != key);
         }
-        vec![Order::Tell(RawInput::Key { key, down })]
+        if self.is_menu_open() {
+            return if down { self.menu_key(key, is_again) } else { Vec::new() };
+        }
+        if self.game == Game::Over {
+            let ends = down && !is_again && matches!(key, Key::Escape | Key::Letter('q'));
+            return if ends { vec![Order::Quit] } else { Vec::new() };
+        }
+        // The game hears of no repeats, and of no release of a key that was pressed in a menu.
+        let was_told = self.told.contains(&key);
+        self.told.retain(|told| *told != key);
+        let is_for_game = if down { !is_again } else { was_told };
+        if down && (was_told || is_for_game) {
+            self.told.push(key);
+        }
+        if is_for_game { vec![Order::Tell(RawInput::Key { key, down })] } else { Vec::new() }
+    }
+
+    /// A key goes down in a menu, or is held there: then only lines and values go on.
+    fn menu_key(&mut self, key: Key, is_again: bool) -> Vec<Order> {
+        let is_arrow = matches!(key, Key::Up | Key::Down | Key::Left | Key::Right);
+        if is_again && !is_arrow {
+            return Vec::new();
+        }
+        let offers_leave = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
+        match key {
+            Key::Letter('q') if offers_leave => self.obey(Deed::Leave),
+            _ => menu_input(key).map_or_else(Vec::new, |input| self.move_menu(input)),
+        }
     }
 
     fn button(&mut self, button: Button, down: bool, pointed: Option<Pointed>) -> Vec<Order> {
@@ -214,9 +235,11 @@ impl Lobby {
 
     /// Moves the menu, and does what it asks for.
     fn move_menu(&mut self, input: MenuInput) -> Vec<Order> {
-        let Some(deed) = self.menu.as_mut().and_then(|menu| menu.hear(input)) else {
-            return Vec::new();
-        };
+        let deed = self.menu.as_mut().and_then(|menu| menu.hear(input));
+        deed.map_or_else(Vec::new, |deed| self.obey(deed))
+    }
+
+    fn obey(&mut self, deed: Deed) -> Vec<Order> {
         match deed {
             Deed::Start => vec![Order::Begin { again: false }],
             Deed::Again => vec![Order::Begin { again: true }],
@@ -244,8 +267,8 @@ impl Lobby {
         if let Some(menu) = &mut self.menu {
             menu.open(page);
         }
-        // What is held now is let go before a menu: nobody would hear of it.
-        self.held.clear();
+        // The game is told that everything is let go.
+        self.told.clear();
         self.dragged = None;
     }
 
@@ -265,7 +288,7 @@ fn menu_input(key: Key) -> Option<MenuInput> {
         Key::Left => MenuInput::Less,
         Key::Right => MenuInput::More,
         Key::Enter | Key::Space => MenuInput::Accept,
-        Key::Escape => MenuInput::Back,
+        Key::Escape | Key::Letter('p') => MenuInput::Back,
         _ => return None,
     })
 }

@@ -94,6 +94,12 @@ impl Menu {
         Some((self.pages.at(last.page)?, last.focus))
     }
 
+    /// Whether the page that is seen has a line that does this.
+    pub fn offers(&self, act: Act) -> bool {
+        let does = |item: &Item| item.effect == Effect::Does(act);
+        self.seen().is_some_and(|(page, _)| page.items.iter().any(does))
+    }
+
     /// Whether a line can be chosen.
     pub fn is_live(&self, item: &Item) -> bool {
         match item.effect {
@@ -203,9 +209,7 @@ impl Menu {
             self.opened.pop();
             return None;
         }
-        let (page, _) = self.seen()?;
-        let offers = |act| page.items.iter().any(|item| item.effect == Effect::Does(act));
-        match (offers(Act::Resume), offers(Act::Leave)) {
+        match (self.offers(Act::Resume), self.offers(Act::Leave)) {
             (true, _) => Some(Deed::Resume),
             (false, true) => Some(Deed::Leave),
             // Nobody ends the program by accident.

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 /// Steps of what is set in steps.
 const STRENGTH_STEP: u8 = 5;
 const VOLUME_STEP: u16 = 10;
-const VOLUME_MAX: u16 = 200;
+/// As loud as a mixer plays the shipped scenes.
+const VOLUME_MAX: u16 = 130;
 const MOUSE_STEP: u16 = 25;
 const MOUSE_MAX: u16 = 400;
 

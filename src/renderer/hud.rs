@@ -165,11 +165,15 @@ impl Hud {
             hud.elevation = Some(words.fill("elevation", "degrees", &degrees));
         }
         let strokes = matches!(view.mode, HumanMode::Stroking | HumanMode::HoldingStylus);
+        let gauge = |m_s: f64| Gauge {
+            fill: (m_s / FULL_SPEED_M_S).clamp(0.0, 1.0),
+            text: words.fill("speed", "speed", &format!("{m_s:.1}")),
+        };
         if strokes || (board.is_rolling && view.strength_m_s > 0.0) {
-            hud.strength = Some(Gauge {
-                fill: (view.strength_m_s / FULL_SPEED_M_S).clamp(0.0, 1.0),
-                text: words.fill("speed", "speed", &format!("{:.1}", view.strength_m_s)),
-            });
+            hud.strength = Some(gauge(view.strength_m_s));
+        } else if !view.ways.is_empty() {
+            // The ways are those of a stroke as hard as this.
+            hud.strength = Some(gauge(view.expected_m_s));
         }
         hud.banner = banner(board, view, words);
         if view.help {

@@ -130,7 +130,7 @@ fn every_place_of_every_setting_is_kept() {
     assert!(problem.contains("line 1") && !problem.contains('\n'), "{problem}");
     // What somebody wrote by hand is brought into its range.
     let odd = Settings::parse("mouse_percent = 0\nvolume_percent = 60000").unwrap();
-    assert!(odd.mouse_factor() == 0.25 && odd.volume_factor() == 2.0);
+    assert!(odd.mouse_factor() == 0.25 && odd.volume_factor() == 1.3);
     assert_eq!(Tongue::System.language(Language::German), Language::German);
     assert_eq!(Tongue::English.language(Language::German), Language::English);
 }
@@ -193,7 +193,7 @@ fn a_pointer_means_chooses_and_pulls() {
     assert_eq!(seen(&menu).1, "volume");
     let press = |line, share| MenuInput::Press { line, share };
     assert_eq!(menu.hear(press(1, Some(0.25))), Some(Deed::Changed));
-    assert_eq!(menu.settings.volume_percent, 50);
+    assert_eq!(menu.settings.volume_percent, 30);
     assert_eq!(menu.hear(press(1, Some(0.25))), None, "nothing new");
     assert_eq!(menu.hear(press(0, Some(0.1))), Some(Deed::Changed), "the arrow on the left");
     assert_eq!(menu.settings.language, Tongue::German);
@@ -244,6 +244,8 @@ fn a_pause_opens_a_menu_and_escape_leads_back_into_the_game() {
     assert!(lobby.hear(key(Key::Letter('p')), None).is_empty(), "the game hears nothing");
     lobby.began();
     assert_eq!(lobby.hear(key(Key::Escape), None), [Order::Tell(key(Key::Escape))]);
+    let up = RawInput::Key { key: Key::Escape, down: false };
+    assert_eq!(lobby.hear(up, None), [Order::Tell(up)]);
     assert!(lobby.see(false).is_empty() && lobby.is_playing());
     assert_eq!(lobby.see(true), [Order::Tell(RawInput::FocusLost)]);
     assert!(lobby.is_menu_open() && lobby.see(true).is_empty());
@@ -253,6 +255,44 @@ fn a_pause_opens_a_menu_and_escape_leads_back_into_the_game() {
     assert!(lobby.see(true).is_empty() && !lobby.is_menu_open());
     assert!(lobby.see(false).is_empty() && lobby.is_playing());
     assert_eq!(lobby.see(true).len(), 1, "the next pause");
+}
+
+#[test]
+fn a_held_key_goes_along_lines_and_chooses_nothing_twice() {
+    let mut lobby = Lobby::new(Some(menu()));
+    lobby.open_main();
+    let key = |key, down| RawInput::Key { key, down };
+    let page = |lobby: &Lobby| seen(lobby.menu().unwrap());
+    // Held on a line that opens a page: the page opens, and nothing of it is chosen.
+    for _ in 0..5 {
+        assert!(lobby.hear(key(Key::Enter, true), None).is_empty());
+    }
+    assert_eq!(page(&lobby), ("mode".into(), "start".into()));
+    lobby.hear(key(Key::Enter, false), None);
+    for _ in 0..2 {
+        lobby.hear(key(Key::Down, true), None);
+    }
+    assert_eq!(page(&lobby).1, "table");
+    lobby.hear(key(Key::Up, true), None);
+    lobby.hear(key(Key::Up, true), None);
+    assert_eq!(lobby.hear(key(Key::Enter, true), None), [Order::Begin { again: false }]);
+    lobby.began();
+    // The game hears nothing of the key that began it, and all of the next press.
+    assert!(lobby.hear(key(Key::Enter, true), None).is_empty());
+    assert!(lobby.hear(key(Key::Enter, false), None).is_empty());
+    assert_eq!(lobby.hear(key(Key::Enter, true), None).len(), 1);
+    assert!(lobby.hear(key(Key::Enter, true), None).is_empty(), "a repeat");
+    assert_eq!(lobby.hear(key(Key::Enter, false), None).len(), 1);
+
+    // `q` in a pause ends the game, and a menu is never over a game that goes on.
+    lobby.see(true);
+    assert!(lobby.is_menu_open());
+    lobby.see(false);
+    assert!(lobby.is_playing());
+    lobby.see(true);
+    assert_eq!(lobby.hear(key(Key::Letter('q'), true), None), [Order::Tell(RawInput::Closed)]);
+    assert_eq!(lobby.ended(false), [Order::Clear]);
+    assert_eq!(page(&lobby).0, "main");
 }
 
 #[test]
@@ -268,10 +308,10 @@ fn a_scale_is_pulled_only_while_the_button_is_held() {
     assert!(lobby.point(at(0.0)).is_empty());
     assert_eq!(lobby.hear(button(true), at(0.1)), [Order::Apply]);
     assert_eq!(lobby.point(at(0.8)), [Order::Apply]);
-    assert_eq!(volume(&lobby), 160);
+    assert_eq!(volume(&lobby), 100);
     lobby.hear(button(false), at(0.8));
     assert!(lobby.point(at(0.2)).is_empty());
-    assert_eq!(volume(&lobby), 160);
+    assert_eq!(volume(&lobby), 100);
 }
 
 /// A game that only pauses, goes on and ends.

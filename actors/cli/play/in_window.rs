@@ -1,7 +1,7 @@
 //! A game in a window: the ports of both joined.
 
 use super::felt::{Watched, felt};
-use super::kept_settings;
+use super::kept_settings::Kept;
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{CameraPose, Human, HumanView, LedHuman, RawInput};
@@ -63,7 +63,7 @@ pub fn play_in_window(
     if !has_display() {
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
-    let settings = kept_settings::load();
+    let (settings, kept) = Kept::load();
     let fresh;
     let (first, begins) = match stage {
         Some(stage) => (stage, true),
@@ -82,6 +82,7 @@ pub fn play_in_window(
         record: None,
         recorder: None,
         telemetry: None,
+        kept,
         out,
     };
     match show(setup, &mut house) {
@@ -143,9 +144,10 @@ fn window(
     begins: bool,
 ) -> WindowSetup {
     let renderer = stage.scene.renderer;
-    let title = match begins {
-        true => format!("HapticBillard: {}", stage.scene.about.name),
-        false => "HapticBillard".to_string(),
+    // Menus lead to other games.
+    let title = match menu {
+        None => format!("HapticBillard: {}", stage.scene.about.name),
+        Some(_) => "HapticBillard".to_string(),
     };
     WindowSetup {
         title,
@@ -169,6 +171,7 @@ struct House<'a> {
     record: Option<PathBuf>,
     recorder: Option<DeviceRecorder>,
     telemetry: Option<Telemetry>,
+    kept: Kept,
     out: &'a mut dyn Write,
 }
 
@@ -204,20 +207,25 @@ impl Host for House<'_> {
     }
 
     fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error> {
-        if let Some(recorder) = self.recorder.take() {
-            let Recorded { readings, lost } = recorder.finish()?;
+        // All of it is done, whatever of it fails.
+        let device = self.recorder.take().map(DeviceRecorder::finish).transpose();
+        let telemetry = self.telemetry.take().map(Telemetry::finish).transpose();
+        tidy_up(self.args, self.record.as_ref());
+        let record = self.record.take();
+        if let Ok(finished) = finished {
+            writeln!(self.out, "{}", describe(finished.end))?;
+            if let Ok(Some(telemetry)) = &telemetry {
+                writeln!(self.out, "{telemetry}")?;
+            }
+            if let Some(path) = record {
+                writeln!(self.out, "recorded: {}", path.display())?;
+            }
+            self.out.flush()?;
+        }
+        if let Some(Recorded { readings, lost }) = device? {
             log::info!("recorded {readings} readings of the haptic device, {lost} lost");
         }
-        tidy_up(self.args, self.record.as_ref());
-        let Ok(finished) = finished else { return Ok(()) };
-        writeln!(self.out, "{}", describe(finished.end))?;
-        if let Some(telemetry) = self.telemetry.take() {
-            writeln!(self.out, "{}", telemetry.finish()?)?;
-        }
-        if let Some(path) = self.record.take() {
-            writeln!(self.out, "recorded: {}", path.display())?;
-        }
-        Ok(self.out.flush()?)
+        telemetry.map(|_| ())
     }
 
     fn picture(&mut self, png: &[u8]) -> Result<PathBuf, Error> {
@@ -225,7 +233,7 @@ impl Host for House<'_> {
     }
 
     fn keep(&mut self, settings: &Settings) {
-        kept_settings::keep(settings);
+        self.kept.keep(settings);
     }
 }
 

@@ -83,7 +83,7 @@ impl Human {
         }
         let raise = self.held.balance(Key::PageUp, Key::PageDown);
         if raise != 0.0 {
-            self.raise(raise * ELEVATION_RAD_PER_S * TICK_S);
+            self.raise(raise * ELEVATION_RAD_PER_S * fine);
         }
         let left = self.held.balance(Key::Letter('a'), Key::Letter('d'));
         if left != 0.0 {
@@ -96,8 +96,10 @@ impl Human {
 
     /// The key that strikes goes down: it puts a ball down, or begins a stroke.
     pub(super) fn press_key(&mut self) {
+        // A stroke that goes on already is not this key's.
+        let is_stroking = matches!(self.stage, Stage::Stroking(_));
         self.press();
-        if matches!(self.stage, Stage::Stroking(_)) {
+        if !is_stroking && matches!(self.stage, Stage::Stroking(_)) {
             self.key_stroke = Some(KeyStroke::BEGIN);
         }
     }
