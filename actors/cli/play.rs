@@ -12,16 +12,17 @@ use clap::Args;
 use hapticbillard::events::{Event, Source, Topic, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::GameKind;
+use hapticbillard::menu::GameChoice;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::rules::{Language, Texts};
-use hapticbillard::scene::Overrides;
+use hapticbillard::scene::{Overrides, Scene};
 use hapticbillard::tally::Tally;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::files::{keep_newest, load_scene, new_recording_name, recordings_folder};
 use hapticbillard_actors::game::{Headless, Stage, play_headless};
 use hapticbillard_actors::pacer::{StopFlag, describe};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -93,7 +94,7 @@ const HEADLESS: &str = "eight_ball_headless";
 pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let stage = match args.scene.as_deref() {
         None if args.opens_menu() => None,
-        scene => Some(stage(args, scene.unwrap_or(USUAL))?),
+        scene => Some(stage(args, scene.unwrap_or_else(|| usual_scene(args.game)))?),
     };
     if let Some(stage) = stage.as_ref().filter(|stage| stage.scene.renderer.is_none()) {
         return play_without_window(args, stage, out);
@@ -118,6 +119,16 @@ impl PlayArgs {
             && record_device.is_none()
             && telemetry.is_none()
     }
+}
+
+/// The scene of a game for which no scene is given: one that begins with its balls and its table.
+fn usual_scene(game: Option<GameKind>) -> &'static str {
+    let is_of_game = |scene: &&str| {
+        let text = hapticbillard::shipped::scene(scene).unwrap_or_default();
+        let rules = Scene::parse(scene, text).ok().and_then(|scene| scene.rules);
+        rules.is_some_and(|rules| Some(rules.game) == game)
+    };
+    GameChoice::ALL.map(GameChoice::scene).into_iter().find(is_of_game).unwrap_or(USUAL)
 }
 
 fn stage(args: &PlayArgs, scene: &str) -> Result<Stage, Error> {
@@ -246,7 +257,8 @@ impl Participant for LiveScore {
                 let player = player.map_or("", String::as_str);
                 let [a, b] = self.tally.pots;
                 let said = self.texts.verdict(verdict);
-                eprintln!("shot {shot:>3}, balls {a}-{b}: {player}: {said}");
+                // Whoever reads no more ends no game.
+                let _ = writeln!(io::stderr(), "shot {shot:>3}, balls {a}-{b}: {player}: {said}");
             }
         }
         Outcome::default()

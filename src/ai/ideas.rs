@@ -20,7 +20,7 @@ mod trace;
 mod way;
 
 pub use ease::shut_in;
-pub use spots::spots;
+pub use spots::{SPOTS, spots};
 
 use super::noise::StrokeNoise;
 use super::plan::{Goal, Line, LineEnd};

@@ -17,7 +17,7 @@ use rand::Rng;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// How many are handed out at most.
-const SPOTS: usize = 24;
+pub const SPOTS: usize = 24;
 /// How many of them at most for one ball and pocket.
 const SPOTS_ALIKE: usize = 5;
 /// Spots that are nearer to each other are one [m].
