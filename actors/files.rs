@@ -213,9 +213,12 @@ impl LoadedScene {
 
 /// The folder for what the game keeps between runs: recordings and logs.
 pub fn data_folder() -> Result<PathBuf, Error> {
-    directories::ProjectDirs::from("", "", "hapticbillard")
-        .map(|folders| folders.data_dir().to_path_buf())
-        .ok_or(Error::NoHome)
+    Ok(folders()?.data_dir().to_path_buf())
+}
+
+/// Where this system has the user's files of this program.
+fn folders() -> Result<directories::ProjectDirs, Error> {
+    directories::ProjectDirs::from("", "", "hapticbillard").ok_or(Error::NoHome)
 }
 
 /// The folder for the recordings of games that were played.
@@ -233,9 +236,7 @@ pub fn keep_picture(png: &[u8]) -> Result<PathBuf, Error> {
 
 /// The file of what a player has set.
 pub fn settings_file() -> Result<PathBuf, Error> {
-    directories::ProjectDirs::from("", "", "hapticbillard")
-        .map(|folders| folders.config_dir().join("settings.toml"))
-        .ok_or(Error::NoHome)
+    Ok(folders()?.config_dir().join("settings.toml"))
 }
 
 /// What the processor of this machine calls itself, for reports of run time.

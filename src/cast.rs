@@ -103,7 +103,7 @@ impl Cast {
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)
         });
-        let human = match (human, surroundings.foresight(tip_radius_m)?) {
+        let human = match (human, surroundings.foresight()?) {
             (Some(human), Some(foresight)) => Some(human.with_foresight(foresight)),
             (human, _) => human,
         };

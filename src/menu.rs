@@ -9,7 +9,7 @@ mod page;
 pub use page::{Act, Effect, Item, Page, PageError, Pages};
 
 mod settings;
-pub use settings::{AidChoice, GameChoice, Range, Seat, Setting, Settings, TableChoice, Tongue};
+pub use settings::{GameChoice, Range, Seat, Setting, Settings, TableChoice, Tongue};
 
 mod lobby;
 pub use lobby::{Lobby, Order, Pointed};

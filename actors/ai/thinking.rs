@@ -116,7 +116,6 @@ mod tests {
     use super::*;
     use hapticbillard::ai::{Level, MindSetup, StrokeNoise, TaskKind, ThrowTable};
     use hapticbillard::ball::POOL_RADIUS_M;
-    use hapticbillard::cue::TIP_RADIUS_M;
     use hapticbillard::events::Event;
     use hapticbillard::ids::GameKind;
     use hapticbillard::physics::{PhysicsSettings, Simulation};
@@ -143,8 +142,6 @@ mod tests {
             bed: table.bed.unwrap(),
             table: Arc::new(table),
             ball_radius_m: POOL_RADIUS_M,
-            tip_radius_m: TIP_RADIUS_M,
-            delay_s: 0.0,
             game: GameKind::PaperEightBall,
             level: Level::Club,
             noise: StrokeNoise::OLYMPIAD,

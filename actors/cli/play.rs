@@ -99,7 +99,7 @@ pub fn run(args: &PlayArgs, out: &mut dyn Write) -> Result<Status, Error> {
     if let Some(stage) = stage.as_ref().filter(|stage| stage.scene.renderer.is_none()) {
         return play_without_window(args, stage, out);
     }
-    match play_in_window(args, stage.as_ref(), out)? {
+    match play_in_window(args, stage, out)? {
         Ok(status) => Ok(status),
         Err(why) => {
             eprintln!("{why}: {HEADLESS} is played without a window");
@@ -123,10 +123,11 @@ impl PlayArgs {
 
 /// The scene of a game for which no scene is given: one that begins with its balls and its table.
 fn usual_scene(game: Option<GameKind>) -> &'static str {
+    let Some(game) = game else { return USUAL };
     let is_of_game = |scene: &&str| {
         let text = hapticbillard::shipped::scene(scene).unwrap_or_default();
         let rules = Scene::parse(scene, text).ok().and_then(|scene| scene.rules);
-        rules.is_some_and(|rules| Some(rules.game) == game)
+        rules.is_some_and(|rules| rules.game == game)
     };
     GameChoice::ALL.map(GameChoice::scene).into_iter().find(is_of_game).unwrap_or(USUAL)
 }
@@ -270,7 +271,7 @@ impl Participant for LiveScore {
 #[cfg(not(feature = "renderer"))]
 fn play_in_window(
     _: &PlayArgs,
-    _: Option<&Stage>,
+    _: Option<Stage>,
     _: &mut dyn Write,
 ) -> Result<Result<Status, String>, Error> {
     Ok(Err("this build has no window".into()))

@@ -36,10 +36,12 @@ pub(super) struct Desk<'a> {
     stop: StopFlag,
     system: Language,
     lobby: Lobby,
+    /// The language that everything is written in, and its words of the menus.
+    spoken: Language,
     words: Words,
-    /// What is seen behind the main menu, and what the graphics card holds of it from when it is
-    /// first needed.
-    backdrop: Option<(Backdrop, Option<Stage>)>,
+    /// What is seen behind the main menu, and what the graphics card holds of it; none before it
+    /// is needed.
+    backdrop: Option<(DrawList, Stage)>,
     game: Option<Running>,
     /// What was set and is not written yet.
     unkept: Option<Instant>,
@@ -85,11 +87,12 @@ impl<'a> Desk<'a> {
             ended,
             stop: setup.stop,
             system: setup.language,
+            spoken: setup.language,
             words: Words::of_menus(setup.language),
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
             lobby: Lobby::new(setup.menu),
             is_picture_held: false,
-            backdrop: setup.backdrop.map(|backdrop| (backdrop, None)),
+            backdrop: None,
             game: None,
             unkept: None,
             volume: None,
@@ -104,11 +107,12 @@ impl<'a> Desk<'a> {
             is_focused: false,
             graphics,
         };
-        desk.words = Words::of_menus(desk.language());
+        desk.speak();
         if setup.begins {
             desk.begin(true)?
         } else {
-            desk.lobby.open_main()
+            desk.lobby.open_main();
+            desk.set_up_backdrop()?;
         }
         Ok(desk)
     }
@@ -234,7 +238,12 @@ impl<'a> Desk<'a> {
                         self.complain(error, flow);
                     }
                 }
-                Order::Clear => self.game = None,
+                Order::Clear => {
+                    self.game = None;
+                    if let Err(error) = self.set_up_backdrop() {
+                        self.complain(error, flow);
+                    }
+                }
                 Order::Apply => self.changed(),
                 Order::Quit => flow.set_exit(),
             }
@@ -305,7 +314,7 @@ impl<'a> Desk<'a> {
     fn begin(&mut self, again: bool) -> Result<(), Error> {
         self.keep();
         self.game = None;
-        let language = self.language();
+        let language = self.spoken;
         let settings = self.lobby.menu().map(|menu| &menu.settings);
         let prepared = self.host.prepare(settings, language, again)?;
         let ended = self.ended.clone();
@@ -321,6 +330,15 @@ impl<'a> Desk<'a> {
         Ok(())
     }
 
+    /// A table behind the main menu, if there is one and it is not there yet.
+    fn set_up_backdrop(&mut self) -> Result<(), Error> {
+        if self.backdrop.is_none() && self.lobby.menu().is_some() {
+            let Backdrop { table, list } = self.host.backdrop()?;
+            self.backdrop = Some((list, Stage::new(&self.graphics, &table)));
+        }
+        Ok(())
+    }
+
     fn game_ended(&mut self, flow: &mut ControlFlow) {
         self.pointer.release(&self.window);
         let now_s = self.now_s();
@@ -330,8 +348,8 @@ impl<'a> Desk<'a> {
         let Some(finished) = game.join() else { return };
         let told = self.host.ended(&finished);
         if let Err(error) = finished {
-            self.game = None;
             self.lobby.open_main();
+            self.obey(vec![Order::Clear], flow);
             self.complain(error.into(), flow);
             return;
         }
@@ -350,7 +368,7 @@ impl<'a> Desk<'a> {
     /// Something was set.
     fn changed(&mut self) {
         self.unkept = Some(Instant::now());
-        self.words = Words::of_menus(self.language());
+        self.speak();
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
         if std::mem::replace(&mut self.is_full, is_full) != is_full {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
@@ -358,12 +376,22 @@ impl<'a> Desk<'a> {
         self.apply();
     }
 
+    /// Writes everything in the language that is set.
+    fn speak(&mut self) {
+        let language = self.language();
+        if std::mem::replace(&mut self.spoken, language) == language {
+            return;
+        }
+        self.words = Words::of_menus(language);
+        if let Some(game) = &mut self.game {
+            game.speak(language);
+        }
+    }
+
     /// What is set becomes true in the game.
     fn apply(&mut self) {
-        let language = self.language();
         let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
-        game.speak(language);
-        let aid = menu.settings.aim_aid.aid();
+        let aid = menu.settings.aim_aid;
         if self.aid.replace(aid) != Some(aid) {
             game.outbox.say(RawInput::Aid(aid));
         }
@@ -389,9 +417,8 @@ impl<'a> Desk<'a> {
         let now_s = self.now_s();
         let panel = self.panel();
         let Some(game) = &mut self.game else {
-            let (backdrop, _) = self.backdrop.as_ref()?;
-            let list = (*backdrop.list).clone();
-            return Some((list, Hud { menu: panel, ..Hud::default() }));
+            let (list, _) = self.backdrop.as_ref()?;
+            return Some((list.clone(), Hud { menu: panel, ..Hud::default() }));
         };
         let view = game.view();
         let (list, mut hud) = game.seen(&view, now_s);
@@ -412,7 +439,7 @@ impl<'a> Desk<'a> {
         let now_s = self.now_s();
         if let Some(game) = &mut self.game {
             game.take_news(now_s);
-            for order in self.lobby.see(game.is_paused()) {
+            for order in self.lobby.see(game.mode() == HumanMode::Paused) {
                 if let Order::Tell(report) = order {
                     game.outbox.say(report);
                 }
@@ -437,9 +464,7 @@ impl<'a> Desk<'a> {
         });
         let stage = match (&mut self.game, &mut self.backdrop) {
             (Some(game), _) => &mut game.stage,
-            (None, Some((backdrop, stage))) => {
-                stage.get_or_insert_with(|| Stage::new(&self.graphics, &backdrop.table))
-            }
+            (None, Some((_, stage))) => stage,
             (None, None) => return,
         };
         let gui = &self.gui;
@@ -464,7 +489,7 @@ impl<'a> Desk<'a> {
         let kept = encoded(rows, size)
             .map_err(|error| error.to_string())
             .and_then(|png| self.host.picture(&png).map_err(|error| error.to_string()));
-        let words = Words::new(self.language());
+        let words = Words::new(self.spoken);
         let said = match kept {
             Ok(path) => words.fill("picture", "path", &path.display().to_string()),
             Err(reason) => words.fill("no_picture", "reason", &reason),
@@ -475,10 +500,8 @@ impl<'a> Desk<'a> {
     /// While time stands still, something is to be chosen or no game goes on, the pointer belongs
     /// to the player's desk.
     fn hold_pointer(&mut self) {
-        let is_free = |game: &mut Running| {
-            matches!(game.view().mode, HumanMode::Paused | HumanMode::Choosing)
-        };
-        let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game));
+        let is_free = |mode| matches!(mode, HumanMode::Paused | HumanMode::Choosing);
+        let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game.mode()));
         let is_playing = self.is_focused && goes_on && self.lobby.is_playing();
         if is_playing && !self.pointer.is_caught() {
             self.pointer.catch(&self.window);

@@ -164,9 +164,9 @@ impl Running {
         self.view.read().clone()
     }
 
-    /// Whether time stands still.
-    pub fn is_paused(&mut self) -> bool {
-        self.view.read().mode == HumanMode::Paused
+    /// What the player is doing.
+    pub fn mode(&mut self) -> HumanMode {
+        self.view.read().mode
     }
 
     /// Takes what happened since the last picture.

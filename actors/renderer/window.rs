@@ -40,8 +40,6 @@ pub struct WindowSetup {
     pub menu: Option<Menu>,
     /// It fills the screen whatever the menus say.
     pub fullscreen: bool,
-    /// What is seen behind the main menu.
-    pub backdrop: Option<Backdrop>,
     /// A game begins at once, before any menu.
     pub begins: bool,
 }
@@ -51,7 +49,7 @@ pub struct Backdrop {
     /// The table.
     pub table: Arc<Table>,
     /// What is seen of it.
-    pub list: Box<DrawList>,
+    pub list: DrawList,
 }
 
 /// Who runs the games of a window.
@@ -66,6 +64,12 @@ pub trait Host {
         language: Language,
         again: bool,
     ) -> Result<Prepared, Error>;
+
+    /// What is seen behind the main menu; asked for when it first opens.
+    ///
+    /// # Errors
+    /// Balls that do not fit the table.
+    fn backdrop(&mut self) -> Result<Backdrop, Error>;
 
     /// A game has ended.
     ///

@@ -37,7 +37,6 @@ use crate::ball::{Ball, BallState};
 use crate::ids::GameKind;
 use crate::physics::Simulation;
 use crate::table::{Bed, Table};
-use crate::units::Seconds;
 use race::Races;
 use std::sync::Arc;
 use world::World;
@@ -58,10 +57,6 @@ pub struct MindSetup {
     pub bed: Bed,
     /// Radius of every ball [m].
     pub ball_radius_m: f64,
-    /// Radius of the tip [m].
-    pub tip_radius_m: f64,
-    /// How long before a stroke a command must be given [s]: a step of the solver, or 0.
-    pub delay_s: Seconds,
     /// What is played.
     pub game: GameKind,
     /// How far it looks.

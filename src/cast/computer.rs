@@ -11,7 +11,6 @@ use crate::physics::{PhysicsError, PhysicsSettings, Profile, Simulation, SolverK
 use crate::rules::Referee;
 use crate::scene::{PlayerKind, PlayerSection, Scene};
 use crate::table::{Bed, Table};
-use crate::units::Seconds;
 use std::sync::Arc;
 
 /// How many shots of the event-driven solver take as long as one in fixed steps, roughly: who has
@@ -34,8 +33,8 @@ pub(super) struct Surroundings<'a> {
 #[derive(Clone)]
 struct Own {
     simulation: Simulation,
-    /// How long before a stroke a command must be given [s].
-    delay_s: Seconds,
+    /// It computes in steps, which takes many times as long.
+    in_steps: bool,
 }
 
 /// The computer players, in the order of their seats.
@@ -74,11 +73,11 @@ impl Surroundings<'_> {
         };
 
         // Two searching players look at copies of one table, which is prepared once.
-        let Own { simulation, delay_s } = match own {
+        let Own { simulation, in_steps } = match own {
             Some(own) => own.clone(),
             None => own.insert(self.own_simulation()?).clone(),
         };
-        if delay_s > 0.0 && section.simulations.is_none() {
+        if in_steps && section.simulations.is_none() {
             settings.simulations = settings.simulations.div_ceil(SHOTS_PER_STEPPED_SHOT);
         }
         let mind = Mind::new(MindSetup {
@@ -87,8 +86,6 @@ impl Surroundings<'_> {
             table: self.table.clone(),
             bed,
             ball_radius_m: self.ball_radius_m,
-            tip_radius_m: self.scene.parameters().tip_radius_m,
-            delay_s,
             game: referee.game(),
             level: settings.level,
             noise: settings.stroke_noise(),
@@ -125,14 +122,14 @@ impl Surroundings<'_> {
     }
 
     /// A table on which a person looks ahead; none where nobody sits at mouse and keyboard, nobody
-    /// has a cue, or commands do not act at once.
-    pub fn foresight(&self, tip_radius_m: f64) -> Result<Option<Foresight>, PhysicsError> {
+    /// has a cue, or shots are computed in steps, which takes too long.
+    pub fn foresight(&self) -> Result<Option<Foresight>, PhysicsError> {
         if !self.scene.has_hand() || self.scene.cue.is_none() {
             return Ok(None);
         }
-        let Own { simulation, delay_s } = self.own_simulation()?;
+        let Own { simulation, in_steps } = self.own_simulation()?;
         let balls = self.balls.iter().map(|(ball, _)| ball.clone()).collect();
-        Ok((delay_s == 0.0).then(|| Foresight::new(simulation, balls, tip_radius_m)))
+        Ok((!in_steps).then(|| Foresight::new(simulation, balls)))
     }
 
     /// The exact solver wherever it knows the scene's contact laws, whatever the game itself is
@@ -142,7 +139,7 @@ impl Surroundings<'_> {
         let settings = &self.scene.physics;
         match (settings.solver, settings.profile) {
             (SolverKind::EventDriven, _) => {
-                Ok(Own { simulation: self.simulation.clone(), delay_s: 0.0 })
+                Ok(Own { simulation: self.simulation.clone(), in_steps: false })
             }
             (SolverKind::FixedStep, Profile::Standard) => {
                 let exact = PhysicsSettings { solver: SolverKind::EventDriven, ..settings.clone() };
@@ -150,11 +147,11 @@ impl Surroundings<'_> {
                 let simulation =
                     Simulation::with_parameters(self.table, balls, &exact, parameters)?;
                 let simulation = simulation.with_racks(self.scene.racks(self.table));
-                Ok(Own { simulation, delay_s: 0.0 })
+                Ok(Own { simulation, in_steps: false })
             }
             (SolverKind::FixedStep, Profile::Paper2009) => {
                 let simulation = self.simulation.clone();
-                Ok(Own { simulation, delay_s: 1e-3 * settings.step_ms })
+                Ok(Own { simulation, in_steps: true })
             }
         }
     }

@@ -3,21 +3,22 @@
 
 use crate::ball::{Ball, BallPlace, BallState};
 use crate::cue::Aim;
-use crate::events::{Command, FactKind};
+use crate::events::FactKind;
 use crate::ids::BallId;
 use crate::physics::{PhysicsError, Shot, Simulation, Snapshot, Strike};
 use crate::units::Seconds;
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Time between two points of a way [s].
 const STEP_S: Seconds = 0.02;
 /// Points nearer than this to the straight line between their neighbours are left out [m].
 const FLAT_M: f64 = 0.001;
 
 /// How much help a player wants while aiming.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum AimAid {
     /// None.
     None,
@@ -29,7 +30,7 @@ pub enum AimAid {
 }
 
 impl AimAid {
-    /// All of them, in the order in which a key goes through them.
+    /// All of them, from the least to the most.
     pub const ALL: [AimAid; 3] = [AimAid::None, AimAid::Line, AimAid::Ways];
 
     /// The one after it.
@@ -60,14 +61,12 @@ pub struct Foresight {
     /// Shared: whoever holds it is copied every tick.
     simulation: Arc<Simulation>,
     balls: Arc<Vec<Ball>>,
-    tip_radius_m: f64,
 }
 
 impl Foresight {
-    /// Looks ahead with this simulation, whose balls may be anywhere. Commands must act at once in
-    /// it: the event-driven solver.
-    pub fn new(simulation: Simulation, balls: Vec<Ball>, tip_radius_m: f64) -> Self {
-        Foresight { simulation: Arc::new(simulation), balls: Arc::new(balls), tip_radius_m }
+    /// Looks ahead with this simulation, whose balls may be anywhere.
+    pub fn new(simulation: Simulation, balls: Vec<Ball>) -> Self {
+        Foresight { simulation: Arc::new(simulation), balls: Arc::new(balls) }
     }
 
     /// Where the cue ball goes, and the ball that it meets first, if the tip meets it so fast
@@ -104,25 +103,7 @@ impl Foresight {
         let ball = |id: BallId| self.balls.iter().find(|ball| ball.id == id);
         let lying: Vec<(Ball, BallState)> =
             lies.on_table().filter_map(|s| Some((ball(s.id)?.clone(), at_rest(s)))).collect();
-        let struck = lying.iter().find(|(ball, _)| ball.id == cue_ball);
-        let (radius_m, centre) = struck
-            .map(|(ball, state)| (ball.radius_m, state.position))
-            .ok_or(PhysicsError::UnknownBall(cue_ball))?;
-        let aim = aim.limited();
-        let strike = Strike {
-            speed_m_s,
-            azimuth_deg: aim.azimuth_rad / DEGREE,
-            elevation_deg: aim.elevation_rad / DEGREE,
-            side_offset: aim.side_offset,
-            height_offset: aim.height_offset,
-        };
-        let mut simulation = self.simulation.with_balls(lying)?;
-        let now = simulation.now_s();
-        let path = strike.path(centre, radius_m, self.tip_radius_m, now)?;
-        let lift_s = path.end_s().unwrap_or(now);
-        simulation.apply(now, &Command::MoveCue(Arc::new(path)))?;
-        simulation.apply(lift_s, &Command::LiftCue)?;
-        Ok(simulation)
+        self.simulation.with_balls(lying)?.strike_ball(cue_ball, Strike::held(&aim, speed_m_s))
     }
 }
 

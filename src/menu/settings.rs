@@ -41,7 +41,7 @@ pub struct Settings {
     /// The window fills the screen.
     pub full_screen: bool,
     /// What helps to aim.
-    pub aim_aid: AidChoice,
+    pub aim_aid: AimAid,
 }
 
 impl Default for Settings {
@@ -57,7 +57,7 @@ impl Default for Settings {
             volume_percent: 100,
             mouse_percent: 100,
             full_screen: false,
-            aim_aid: AidChoice::Line,
+            aim_aid: AimAid::Line,
         }
     }
 }
@@ -219,38 +219,6 @@ impl Tongue {
     }
 }
 
-/// How much help a player wants while aiming.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum AidChoice {
-    /// None.
-    None,
-    /// A straight line.
-    Line,
-    /// The ways of the balls to their end.
-    Ways,
-}
-
-impl AidChoice {
-    /// The key of its name in the texts.
-    pub fn key(self) -> &'static str {
-        match self {
-            AidChoice::None => "aid_none",
-            AidChoice::Line => "aid_line",
-            AidChoice::Ways => "aid_ways",
-        }
-    }
-
-    /// What it is for the hand.
-    pub fn aid(self) -> AimAid {
-        match self {
-            AidChoice::None => AimAid::None,
-            AidChoice::Line => AimAid::Line,
-            AidChoice::Ways => AimAid::Ways,
-        }
-    }
-}
-
 /// One thing that can be set, by the name that pages give it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -295,7 +263,6 @@ pub enum Range {
 const TABLES: [TableChoice; 3] =
     [TableChoice::NineFoot, TableChoice::EightFoot, TableChoice::SevenFoot];
 const SEATS: [Seat; 2] = [Seat::Human, Seat::Computer];
-const AIDS: [AidChoice; 3] = [AidChoice::None, AidChoice::Line, AidChoice::Ways];
 const TONGUES: [Tongue; 3] = [Tongue::System, Tongue::English, Tongue::German];
 
 /// Where `value` stands in a list; at its front if it does not.
@@ -332,7 +299,7 @@ impl Settings {
             // From one step on: a mouse that moves nothing is of no use.
             Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
             Setting::FullScreen => Range::Choice(2),
-            Setting::AimAid => Range::Choice(AIDS.len()),
+            Setting::AimAid => Range::Choice(AimAid::ALL.len()),
         }
     }
 
@@ -351,7 +318,7 @@ impl Settings {
                 (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
             }
             Setting::FullScreen => self.full_screen.into(),
-            Setting::AimAid => place(&AIDS, &self.aim_aid),
+            Setting::AimAid => place(&AimAid::ALL, &self.aim_aid),
         }
     }
 
@@ -375,7 +342,7 @@ impl Settings {
             Setting::Volume => self.volume_percent = u16::from(steps) * VOLUME_STEP,
             Setting::MouseSpeed => self.mouse_percent = (u16::from(steps) + 1) * MOUSE_STEP,
             Setting::FullScreen => self.full_screen = place == 1,
-            Setting::AimAid => self.aim_aid = AIDS[place],
+            Setting::AimAid => self.aim_aid = AimAid::ALL[place],
         }
     }
 

@@ -4,7 +4,7 @@ use super::event_driven::Segment;
 use super::fixed_step::{Knot, between};
 use super::{Ledger, PhysicsError, Simulation, Work};
 use crate::ball::{BallPlace, BallState};
-use crate::cue::{CuePath, CuePiece};
+use crate::cue::{Aim, CuePath, CuePiece};
 use crate::events::Fact;
 use crate::ids::BallId;
 use crate::units::Seconds;
@@ -50,6 +50,19 @@ impl Strike {
         side_offset: 0.0,
         height_offset: 0.0,
     };
+
+    /// The stroke of a cue that is held so, at this speed of the tip [m/s].
+    pub fn held(aim: &Aim, speed_m_s: f64) -> Self {
+        const DEGREE: f64 = core::f64::consts::PI / 180.0;
+        let aim = aim.limited();
+        Strike {
+            speed_m_s,
+            azimuth_deg: aim.azimuth_rad / DEGREE,
+            elevation_deg: aim.elevation_rad / DEGREE,
+            side_offset: aim.side_offset,
+            height_offset: aim.height_offset,
+        }
+    }
 
     /// Unit vector along the shaft, from butt to tip.
     pub fn direction(&self) -> DVec3 {

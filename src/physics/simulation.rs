@@ -188,14 +188,18 @@ impl Simulation {
     }
 
     /// Adds a stroke that hits the cue ball with exactly the given tip speed, as soon as possible.
-    pub fn strike(mut self, strike: Strike) -> Result<Self, PhysicsError> {
-        let ball = self.sample(BallId::CUE, self.now_s);
-        let ball = ball.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
+    pub fn strike(self, strike: Strike) -> Result<Self, PhysicsError> {
+        self.strike_ball(BallId::CUE, strike)
+    }
+
+    /// The same at another ball: carom has two cue balls.
+    pub fn strike_ball(mut self, id: BallId, strike: Strike) -> Result<Self, PhysicsError> {
+        let ball = self.sample(id, self.now_s).ok_or(PhysicsError::UnknownBall(id))?;
         let radius_m = match &self.engine {
-            Engine::EventDriven(solver) => solver.radius_m(BallId::CUE),
-            Engine::FixedStep(solver) => solver.radius_m(BallId::CUE),
+            Engine::EventDriven(solver) => solver.radius_m(id),
+            Engine::FixedStep(solver) => solver.radius_m(id),
         };
-        let radius_m = radius_m.ok_or(PhysicsError::UnknownBall(BallId::CUE))?;
+        let radius_m = radius_m.ok_or(PhysicsError::UnknownBall(id))?;
         // A command acts at the latest one step from now; the tip must not have set out by then.
         let start_s = self.now_s + self.step_s();
         let stroke = strike.path(ball.position, radius_m, self.tip_radius_m, start_s)?;

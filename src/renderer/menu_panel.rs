@@ -2,6 +2,7 @@
 
 use super::Words;
 use crate::ids::PlayerId;
+use crate::input::AimAid;
 use crate::menu::{Effect, Item, Menu, Pointed, Range, Seat, Setting, Settings};
 
 /// A page of a menu, in words.
@@ -91,7 +92,11 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
         Setting::Language => words.get(settings.language.key()),
         Setting::Volume => percent(settings.volume_percent),
         Setting::MouseSpeed => percent(settings.mouse_percent),
-        Setting::AimAid => words.get(settings.aim_aid.key()),
+        Setting::AimAid => words.get(match settings.aim_aid {
+            AimAid::None => "aid_none",
+            AimAid::Line => "aid_line",
+            AimAid::Ways => "aid_ways",
+        }),
         Setting::FullScreen => words.get(if settings.full_screen { "on" } else { "off" }),
     }
 }

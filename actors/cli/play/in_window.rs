@@ -57,27 +57,24 @@ fn language() -> Language {
 /// the main menu opens.
 pub fn play_in_window(
     args: &PlayArgs,
-    stage: Option<&Stage>,
+    stage: Option<Stage>,
     out: &mut dyn Write,
 ) -> Result<Result<Status, String>, Error> {
     if !has_display() {
         return Ok(Err("no display (DISPLAY and WAYLAND_DISPLAY are not set)".into()));
     }
     let (settings, kept) = Kept::load();
-    let fresh;
-    let (first, begins) = match stage {
-        Some(stage) => (stage, true),
-        None => {
-            fresh = stage_of(&settings, Language::English)?;
-            (&fresh, false)
-        }
+    let begins = stage.is_some();
+    let stage = match stage {
+        Some(stage) => stage,
+        None => stage_of(&settings, Language::English)?,
     };
     let menu =
         Menu::new(Pages::shipped().map_err(|error| RunError::Start(error.to_string()))?, settings);
-    let setup = window(first, Some(menu), Some(backdrop(first)?), begins);
+    let setup = window(&stage, Some(menu), begins);
     let mut house = House {
         args,
-        stage: first.with(first.header().overrides),
+        stage,
         is_first: begins,
         record: None,
         recorder: None,
@@ -94,7 +91,7 @@ pub fn play_in_window(
 /// Plays a recording back in a window.
 pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
     let mut replay = Replay { stage, recording: Some(recording) };
-    match show(window(stage, None, None, true), &mut replay) {
+    match show(window(stage, None, true), &mut replay) {
         Ok(shown) => shown.map(|()| Status::Success),
         Err(NoWindow(why)) => {
             Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
@@ -127,7 +124,7 @@ fn backdrop(stage: &Stage) -> Result<Backdrop, Error> {
     // The menu is on the left.
     let view = HumanView { camera: CameraPose::default().aside(ASIDE_M), ..HumanView::default() };
     let list = DrawList::new(&first, &view, &radii(stage)?);
-    Ok(Backdrop { table: stage.table.clone(), list: Box::new(list) })
+    Ok(Backdrop { table: stage.table.clone(), list })
 }
 
 fn radii(stage: &Stage) -> Result<Radii, Error> {
@@ -137,12 +134,7 @@ fn radii(stage: &Stage) -> Result<Radii, Error> {
         .with_tip(stage.scene.parameters().tip_radius_m))
 }
 
-fn window(
-    stage: &Stage,
-    menu: Option<Menu>,
-    backdrop: Option<Backdrop>,
-    begins: bool,
-) -> WindowSetup {
+fn window(stage: &Stage, menu: Option<Menu>, begins: bool) -> WindowSetup {
     let renderer = stage.scene.renderer;
     // Menus lead to other games.
     let title = match menu {
@@ -156,7 +148,6 @@ fn window(
         language: language(),
         stop: stop_at_interrupt(),
         menu,
-        backdrop,
         begins,
     }
 }
@@ -206,6 +197,10 @@ impl Host for House<'_> {
         Ok(prepared)
     }
 
+    fn backdrop(&mut self) -> Result<Backdrop, Error> {
+        backdrop(&self.stage)
+    }
+
     fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error> {
         // All of it is done, whatever of it fails.
         let device = self.recorder.take().map(DeviceRecorder::finish).transpose();
@@ -247,6 +242,10 @@ impl Host for Replay<'_> {
     fn prepare(&mut self, _: Option<&Settings>, _: Language, _: bool) -> Result<Prepared, Error> {
         let recording = self.recording.take();
         Ok(prepared(self.stage, recording, None, None, None, 1.0)?.0)
+    }
+
+    fn backdrop(&mut self) -> Result<Backdrop, Error> {
+        backdrop(self.stage)
     }
 
     fn ended(&mut self, _: &Result<Finished, RunError>) -> Result<(), Error> {

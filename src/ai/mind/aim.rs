@@ -50,7 +50,7 @@ pub fn along(mind: &Mind, world: &World, idea: &Idea, touch: Touch) -> Option<(A
 fn turned(world: &World, mind: &Mind, idea: &Idea, mut aim: Aim, speed_m_s: f64) -> Option<Aim> {
     let (wanted, first) = (idea.first_way?, idea.first?);
     let error = |aim| {
-        let way = world.first_way(mind, aim, speed_m_s, first)?;
+        let way = world.first_way(aim, speed_m_s, first)?;
         Some(signed_angle(wanted, way))
     };
     let lever = idea.to_ball_m / (2.0 * mind.ball_radius_m * libm::cos(idea.cut_rad).max(0.2));

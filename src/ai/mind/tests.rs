@@ -23,8 +23,6 @@ fn champion(noise: f64, simulations: u32) -> Mind {
         bed: table.bed.unwrap(),
         table: Arc::new(table),
         ball_radius_m: POOL_RADIUS_M,
-        tip_radius_m: crate::cue::TIP_RADIUS_M,
-        delay_s: 0.0,
         game: GameKind::WpaEightBall,
         level: Level::Champion,
         noise: StrokeNoise::olympiad(noise),
@@ -99,7 +97,7 @@ fn visit(mind: &Mind, seed: u64) -> Visit {
         let Decision::Shoot(shot) = answer.decision else { panic!("there is a ball to strike") };
         let world = World::new(mind, &lies, referee.clone(), turn.clone()).unwrap();
         let (aim, speed_m_s) = trial::erred(mind, (shot.aim, shot.speed_m_s), rng.random());
-        let mut played = world.play(mind, aim, speed_m_s, shot.call.as_ref()).unwrap();
+        let mut played = world.play(aim, speed_m_s, shot.call.as_ref()).unwrap();
         if shot.idea.pocket.is_some() {
             seen.pots[0] += 1;
             seen.pots[1] += u32::from(trial::succeeds(&world, &shot.idea, &played));

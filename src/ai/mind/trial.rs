@@ -55,7 +55,7 @@ fn outcome(
     let call = call(idea, world.turn.calls);
     let bad = Outcome { aim: meant.0, speed_m_s: meant.1, simulations: 1, ..Outcome::default() };
     // A shot that cannot be simulated is not played.
-    let Ok(mut played) = world.play(mind, aim, speed_m_s, call.as_ref()) else { return bad };
+    let Ok(mut played) = world.play(aim, speed_m_s, call.as_ref()) else { return bad };
     let player = world.player();
     Outcome {
         success: succeeds(world, idea, &played),

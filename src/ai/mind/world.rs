@@ -14,7 +14,6 @@ use crate::units::Seconds;
 use glam::{DQuat, DVec2, DVec3};
 use std::sync::Arc;
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// A shot that lasts longer is given up [s].
 const LONGEST_SHOT_S: Seconds = 120.0;
 /// After so long, balls that were spotted lie [s].
@@ -112,31 +111,17 @@ impl World {
     }
 
     /// The struck world, before anything has happened.
-    fn struck(&self, mind: &Mind, aim: Aim, speed_m_s: f64) -> Result<Simulation, PhysicsError> {
-        let cue_ball = self.cue_ball.ok_or(PhysicsError::UnknownBall(self.turn.cue_ball))?;
-        let aim = aim.limited();
-        let strike = Strike {
-            speed_m_s,
-            azimuth_deg: aim.azimuth_rad / DEGREE,
-            elevation_deg: aim.elevation_rad / DEGREE,
-            side_offset: aim.side_offset,
-            height_offset: aim.height_offset,
-        };
-        let mut simulation = self.start.clone();
-        let now = simulation.now_s();
-        // With fixed steps a command acts on the grid; the tip must not have set out by then.
-        let start_s = now + mind.delay_s;
-        let path = strike.path(cue_ball, mind.ball_radius_m, mind.tip_radius_m, start_s)?;
-        let lift_s = path.end_s().unwrap_or(start_s);
-        simulation.apply(now, &Command::MoveCue(Arc::new(path)))?;
-        simulation.apply(lift_s, &Command::LiftCue)?;
-        Ok(simulation)
+    fn struck(&self, aim: Aim, speed_m_s: f64) -> Result<Simulation, PhysicsError> {
+        let cue_ball = self.turn.cue_ball;
+        // One that is in hand is nowhere.
+        self.cue_ball.ok_or(PhysicsError::UnknownBall(cue_ball))?;
+        self.start.clone().strike_ball(cue_ball, Strike::held(&aim, speed_m_s))
     }
 
     /// Which way `ball` goes right after the cue ball met it; none if the cue ball meets something
     /// else first, or nothing.
-    pub fn first_way(&self, mind: &Mind, aim: Aim, speed_m_s: f64, ball: BallId) -> Option<DVec2> {
-        let mut simulation = self.struck(mind, aim, speed_m_s).ok()?;
+    pub fn first_way(&self, aim: Aim, speed_m_s: f64, ball: BallId) -> Option<DVec2> {
+        let mut simulation = self.struck(aim, speed_m_s).ok()?;
         let stop = FactSet::of(&[Topic::BallsCollided, Topic::Settled]);
         let mut facts = Vec::new();
         simulation.advance(LONGEST_SHOT_S, stop, &mut facts).ok()?;
@@ -158,12 +143,11 @@ impl World {
     /// [`PhysicsError`] if the simulation cannot go on.
     pub fn play(
         &self,
-        mind: &Mind,
         aim: Aim,
         speed_m_s: f64,
         call: Option<&Call>,
     ) -> Result<Played, PhysicsError> {
-        let mut end = self.struck(mind, aim, speed_m_s)?;
+        let mut end = self.struck(aim, speed_m_s)?;
         let mut referee = self.referee.clone();
         if let Some(call) = call {
             referee.obey(Source::Ai(self.player()), &Command::Call(call.clone()));

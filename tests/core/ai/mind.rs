@@ -7,7 +7,6 @@ use hapticbillard::ai::{
     StrokeNoise, Task, TaskKind, ThrowTable, Workers,
 };
 use hapticbillard::ball::{Ball, BallPlace, BallState};
-use hapticbillard::cue::TIP_RADIUS_M;
 use hapticbillard::events::{
     BallInHand, Call, CallKind, Event, Group, Groups, ShotKind, Turn, Zone,
 };
@@ -17,8 +16,6 @@ use hapticbillard::rack::Rack;
 use hapticbillard::rules::{Referee, State};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 fn prepared() -> Simulation {
     Simulation::new(table().clone(), Rack::eight_ball(7)).unwrap()
@@ -31,8 +28,6 @@ fn mind(level: Level, noise: f64, simulations: u32) -> Mind {
         table: Arc::new(table().clone()),
         bed: BED,
         ball_radius_m: R,
-        tip_radius_m: TIP_RADIUS_M,
-        delay_s: 0.0,
         game: GameKind::WpaEightBall,
         level,
         noise: StrokeNoise::olympiad(noise),
@@ -105,13 +100,7 @@ fn an_easy_ball_is_called_and_falls() {
         let on_table = |lie: &&BallState| lie.place == BallPlace::OnTable;
         let balls = task.lies.iter().filter(on_table).map(|lie| (Ball::pool(lie.id), *lie));
         let start = prepared().with_balls(balls.collect()).unwrap();
-        let strike = Strike {
-            speed_m_s: shot.speed_m_s,
-            azimuth_deg: shot.aim.azimuth_rad / DEGREE,
-            elevation_deg: shot.aim.elevation_rad / DEGREE,
-            side_offset: shot.aim.side_offset,
-            height_offset: shot.aim.height_offset,
-        };
+        let strike = Strike::held(&shot.aim, shot.speed_m_s);
         let end = start.strike(strike).unwrap().run_until_rest().unwrap().end;
         let three = end.sample(BallId(3), end.now_s()).unwrap();
         assert_eq!(three.place, BallPlace::Pocketed, "{level:?}");
