@@ -109,7 +109,7 @@ impl<A: Actor> Kept<A> {
         // What looks dead does not come back.
         gone.kill();
         place.actor = (self.spawn)();
-        log::warn!("{}: {reason}; another one takes its place", self.name);
+        tracing::warn!("{}: {reason}; another one takes its place", self.name);
         let failed = Health::ActorFailed { actor: self.name.clone(), reason: reason.to_string() };
         for health in [failed, Health::ActorRestarted { actor: self.name.clone() }] {
             // News that nobody takes are dropped: the log has them.

@@ -8,6 +8,10 @@ pub mod error;
 
 pub mod files;
 
+pub mod logging;
+
+pub mod shot;
+
 pub mod cpu_time;
 
 pub mod histogram;

@@ -285,7 +285,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             Err(RunError::Recording(lost.to_string()))
         }
         (finished, Some(lost)) => {
-            log::warn!("{lost}");
+            tracing::warn!("{lost}");
             finished
         }
         (finished, None) => finished,

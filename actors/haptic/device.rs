@@ -156,12 +156,12 @@ fn first_there() -> Option<Opened> {
     match openhaptics::open(openhaptics::named().as_deref(), None) {
         Ok(opened) => return Some(opened),
         Err(NoOpenHaptics::NoLibrary { .. }) => {}
-        Err(error) => log::warn!("{error}"),
+        Err(error) => tracing::warn!("{error}"),
     }
     match haply::open(haply::ADDRESS, TRIED) {
         Ok(opened) => return Some(opened),
         Err(NoHaply::Unreachable { .. }) => {}
-        Err(error) => log::warn!("{error}"),
+        Err(error) => tracing::warn!("{error}"),
     }
     None
 }

@@ -41,7 +41,7 @@ pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
 /// The same, and `joins` is told of each control.
 pub fn keep_and_tell(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
     for refusal in seat.refusals() {
-        log::warn!("{HAPTIC}: {refusal}");
+        tracing::warn!("{HAPTIC}: {refusal}");
         let Refusal { asked, reason, remedy } = refusal.clone();
         tell(&news, Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });
     }
@@ -97,7 +97,7 @@ async fn run(
                 return;
             }
             let reason = "its control stopped: no force until another one starts".to_string();
-            log::warn!("{HAPTIC}: {reason}");
+            tracing::warn!("{HAPTIC}: {reason}");
             tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason });
             was_gone = true;
             pause = if looks < SETTLED { (2 * pause).min(PAUSE_MAX) } else { PAUSE };

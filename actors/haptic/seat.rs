@@ -172,7 +172,7 @@ impl Seat {
     /// What its control wants to be told, and where to.
     pub fn sink(&self) -> Sink {
         let topics = Topics::of(&[Topic::Turn, Topic::Settled, Topic::BallPlaced]);
-        Sink { topics, mail: self.mail.0.clone(), dropped: Arc::default() }
+        Sink { name: super::HAPTIC, topics, mail: self.mail.0.clone(), dropped: Arc::default() }
     }
 
     /// What the control was told.

@@ -303,7 +303,7 @@ impl<'a> Desk<'a> {
 
     /// A menu says what went wrong; without one nothing more is to be done.
     fn complain(&mut self, error: Error, flow: &mut ControlFlow) {
-        log::warn!("{error}");
+        tracing::warn!("{error}");
         if !self.lobby.complain(self.words.fill("failed", "reason", &error.to_string())) {
             self.failed = Some(error);
             flow.set_exit();
@@ -476,8 +476,8 @@ impl<'a> Desk<'a> {
         let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
         match drawn.map(|_| self.graphics.swap_buffers()) {
             Ok(Ok(())) => self.shown = Some((list, written)),
-            Ok(Err(error)) => log::warn!("the window shows nothing: {error}"),
-            Err(error) => log::warn!("the window shows nothing: {error}"),
+            Ok(Err(error)) => tracing::warn!("the window shows nothing: {error}"),
+            Err(error) => tracing::warn!("the window shows nothing: {error}"),
         }
         if let Some(rows) = picture {
             self.keep_picture(&rows, (size.width, size.height));

@@ -113,7 +113,7 @@ impl Running {
         let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
         let (mail_in, mail) = flume::bounded(MAIL);
         let dropped = Arc::new(AtomicU64::new(0));
-        let sink = Sink { topics: Scoreboard::topics(), mail: mail_in, dropped };
+        let sink = Sink { name: "window", topics: Scoreboard::topics(), mail: mail_in, dropped };
         let ports = Ports { raw, view: view_in, world: world_in, sink };
         let thread = thread::Builder::new()
             .name("game".into())

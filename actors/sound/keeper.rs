@@ -73,7 +73,7 @@ async fn run(
                 return;
             }
             let reason = "its control stopped; another one starts".to_string();
-            log::warn!("{SOUND}: {reason}");
+            tracing::warn!("{SOUND}: {reason}");
             tell(&news, Health::ActorFailed { actor: SOUND.into(), reason });
             was_gone = true;
             pause = Some(match pause {

@@ -218,7 +218,7 @@ impl Host for House<'_> {
             self.out.flush()?;
         }
         if let Some(Recorded { readings, lost }) = device? {
-            log::info!("recorded {readings} readings of the haptic device, {lost} lost");
+            tracing::info!("recorded {readings} readings of the haptic device, {lost} lost");
         }
         telemetry.map(|_| ())
     }
@@ -365,7 +365,7 @@ fn heard(
             Ok((Some(Heard { seat, world }), Some(HeardSetup { listener, knobs })))
         }
         Err(error) => {
-            log::warn!("{error}; the game is played without sound");
+            tracing::warn!("{error}; the game is played without sound");
             Ok((None, None))
         }
     }

@@ -66,7 +66,7 @@ fn sinks(events: u64) -> Duration {
         for _ in 0..SUBSCRIBERS {
             // Large enough to lose nothing: a sink that lags loses its own mail.
             let (mail, inbox) = flume::bounded::<Delivered>((events / PER_TICK) as usize);
-            sinks.push(Sink { topics: Topics::ALL, mail, dropped: dropped.clone() });
+            sinks.push(Sink { name: "test", topics: Topics::ALL, mail, dropped: dropped.clone() });
             tasks.push(tokio::spawn(async move {
                 let mut check = Check::default();
                 while let Ok(mail) = inbox.recv_async().await {

@@ -1,0 +1,27 @@
+//! Which shot it is, for the log: a span that lasts from one turn to the next.
+//!
+//! The event manager begins it when it delivers a turn. It goes with the mail to those who take part
+//! in the tick, and back to the conductor. Below the level `info` there is none, and it costs the
+//! look at one flag.
+
+use hapticbillard::events::{Event, Stamped};
+use hapticbillard::units::Tick;
+use tracing::{Level, Span};
+
+/// Whether anybody wants to know.
+pub fn is_told() -> bool {
+    tracing::enabled!(Level::INFO)
+}
+
+/// The span of the shot that begins with one of these events, if any does.
+pub fn begun_by(events: &[Stamped], tick: Tick) -> Option<Span> {
+    events.iter().find_map(|stamped| match &stamped.event {
+        Event::Turn(turn) => Some(tracing::info_span!(
+            "shot",
+            number = turn.shot_number,
+            player = turn.player.0,
+            tick = tick.0
+        )),
+        _ => None,
+    })
+}
