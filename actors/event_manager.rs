@@ -149,7 +149,10 @@ impl EventManager {
         let deliveries = self.core.seal(tick);
         if shot::is_told() {
             let begun = deliveries.iter().find_map(|mail| shot::begun_by(&mail.events, tick));
-            self.shot = begun.unwrap_or(std::mem::replace(&mut self.shot, Span::none()));
+            if let Some(shot) = begun {
+                tracing::info!(parent: &shot, "a turn begins");
+                self.shot = shot;
+            }
         }
         for delivery in deliveries {
             fact |= delivery.events.iter().any(|stamped| matches!(stamped.event, Event::Fact(_)));

@@ -46,6 +46,10 @@ pub mod conductor;
 
 pub mod pacer;
 
+pub mod meters;
+
+pub mod news;
+
 pub mod runtime;
 
 pub mod stopwatch;

@@ -18,6 +18,8 @@ mod materials;
 
 mod menu;
 
+mod meters;
+
 mod offscreen;
 
 mod outbox;

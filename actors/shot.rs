@@ -17,6 +17,7 @@ pub fn is_told() -> bool {
 pub fn begun_by(events: &[Stamped], tick: Tick) -> Option<Span> {
     events.iter().find_map(|stamped| match &stamped.event {
         Event::Turn(turn) => Some(tracing::info_span!(
+            parent: None,
             "shot",
             number = turn.shot_number,
             player = turn.player.0,

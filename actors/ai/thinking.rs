@@ -86,7 +86,9 @@ fn pool() -> Option<&'static ThreadPool> {
         match ThreadPoolBuilder::new().thread_name(named).build() {
             Ok(pool) => Some(pool),
             Err(error) => {
-                tracing::warn!("no threads to think on ({error}); the game waits for each decision");
+                tracing::warn!(
+                    "no threads to think on ({error}); the game waits for each decision"
+                );
                 None
             }
         }

@@ -2,10 +2,12 @@
 
 use super::felt::{FeltScreen, FeltSetup};
 use super::heard::{HeardScreen, HeardSetup};
+use super::meters::MetersScreen;
 use super::outbox::Outbox;
 use super::stage::Stage;
 use crate::conductor::RunError;
 use crate::event_manager::Sink;
+use crate::meters::Meters;
 use hapticbillard::ids::GameKind;
 use hapticbillard::input::{HumanMode, HumanView, RawInput};
 use hapticbillard::physics::Snapshot;
@@ -56,6 +58,8 @@ pub struct Ports {
     pub world: triple_buffer::Input<Arc<Snapshot>>,
     /// Where events for the scoreboard go.
     pub sink: Sink,
+    /// What is measured while its panel is shown.
+    pub meters: Arc<Meters>,
 }
 
 /// Plays a game on a thread of its own.
@@ -81,6 +85,8 @@ pub struct Running {
     pub heard: Option<HeardScreen>,
     /// What the computer thinks is shown.
     pub shows_thoughts: bool,
+    /// What is measured.
+    pub meters: MetersScreen,
     view: triple_buffer::Output<HumanView>,
     world: triple_buffer::Output<Arc<Snapshot>>,
     mail: flume::Receiver<Delivered>,
@@ -114,7 +120,9 @@ impl Running {
         let (mail_in, mail) = flume::bounded(MAIL);
         let dropped = Arc::new(AtomicU64::new(0));
         let sink = Sink { name: "window", topics: Scoreboard::topics(), mail: mail_in, dropped };
-        let ports = Ports { raw, view: view_in, world: world_in, sink };
+        let meters = Arc::new(Meters::default());
+        let measured = meters.clone();
+        let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
         let thread = thread::Builder::new()
             .name("game".into())
             .spawn(move || {
@@ -129,6 +137,7 @@ impl Running {
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
             shows_thoughts: false,
+            meters: MetersScreen::new(meters),
             view,
             world,
             mail,
@@ -171,7 +180,9 @@ impl Running {
 
     /// Takes what happened since the last picture.
     pub fn take_news(&mut self, now_s: f64) {
+        self.meters.look(&self.outbox);
         for delivered in self.mail.try_iter() {
+            self.meters.hear(&delivered);
             for stamped in delivered.events.iter() {
                 self.board.hear(&stamped.event);
             }
@@ -196,6 +207,7 @@ impl Running {
             heard.listen_at(&list.camera);
             heard.write(&mut written, &self.words, now_s);
         }
+        written.meters = self.meters.panel(&self.words, now_s);
         (list, written)
     }
 

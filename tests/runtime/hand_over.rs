@@ -193,7 +193,12 @@ fn a_device_lost_in_an_armed_stroke_pauses_the_mouse_strikes_the_device_comes_ba
     let (person, shown) = person(&stage);
     let (health, menus) = (Hears::of(Topic::Health), Hears::of(Topic::Menu));
     let (mail, facts) = flume::unbounded::<Delivered>();
-    let sink = Sink { name: "test", topics: Topics::of(&[Topic::CueBallStruck]), mail, dropped: Arc::default() };
+    let sink = Sink {
+        name: "test",
+        topics: Topics::of(&[Topic::CueBallStruck]),
+        mail,
+        dropped: Arc::default(),
+    };
     let setup = Setup {
         pace: Pace::EveryTick,
         input: InputPort::Hand(Box::new(person)),

@@ -297,7 +297,7 @@ fn prepared(
     let players = stage.scene.human_players();
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let play = move |ports: Ports| {
-        let Ports { raw, view, world, sink } = ports;
+        let Ports { raw, view, world, sink, meters } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
         let (haptic, stylus) = match started {
@@ -344,6 +344,7 @@ fn prepared(
             physics_thread,
             workers: 2,
             stop,
+            meters: Some(meters),
             ..Setup::headless(LIMIT)
         };
         runtime::run(cast, setup)
