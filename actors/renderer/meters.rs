@@ -14,12 +14,12 @@ use three_d::egui::{Align2, Color32, Rect, pos2, vec2};
 /// Pictures that count at a time: some seconds.
 const PICTURES: usize = 256;
 /// The panel's width, and the height of a row.
-const WIDTH: f32 = 350.0;
+const WIDTH: f32 = 392.0;
 const ROW: f32 = 16.5;
 /// Size of its letters.
 const SIZE: f32 = 12.5;
 /// Width of a column of numbers.
-const COLUMN: f32 = 62.0;
+const COLUMN: f32 = 66.0;
 
 /// The window's end of the meters; it measures only while it is shown.
 pub struct MetersScreen {

@@ -8,6 +8,9 @@
 //! within one run mean anything.
 
 mod common;
+mod latency;
+#[path = "../../thousand.rs"]
+mod thousand;
 
 use common::{Check, PER_TICK, SUBSCRIBERS, fact, on_runtime, stamped};
 use hapticbillard::event_manager::EventManager as Core;
@@ -375,4 +378,5 @@ fn main() {
             median / 1e6
         );
     }
+    latency::table(rounds);
 }
