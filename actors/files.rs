@@ -226,11 +226,17 @@ pub fn logs_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("logs"))
 }
 
+/// Makes a folder where there is none.
+pub fn make_folder(path: &Path) -> Result<(), Error> {
+    let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
+    fs::create_dir_all(path).map_err(failed)
+}
+
 /// Opens a file to write behind what is there; its folder is made where there is none.
 pub fn append_to(path: &Path) -> Result<File, Error> {
     let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        fs::create_dir_all(folder).map_err(failed)?;
+        make_folder(folder)?;
     }
     File::options().create(true).append(true).open(path).map_err(failed)
 }

@@ -115,6 +115,8 @@ fn open(file: &LogFile) -> Result<Option<Open>, Error> {
         LogFile::Daily => {
             let folder = files::logs_folder()?;
             let failed = |reason: io::Error| Error::Write { path: folder.clone(), reason };
+            // Where there is none the appender would complain on stderr.
+            files::make_folder(&folder)?;
             let daily = RollingFileAppender::builder()
                 .rotation(Rotation::DAILY)
                 .filename_prefix("hapticbillard")

@@ -8,7 +8,7 @@ use hapticbillard::units::Tick;
 use kameo::prelude::*;
 use smallvec::SmallVec;
 use std::sync::Arc;
-use tracing::Level;
+use tracing::level_filters::LevelFilter;
 
 /// Owns the simulation.
 #[derive(Actor)]
@@ -38,7 +38,7 @@ impl Physics {
     }
 
     fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
-        if tracing::enabled!(Level::DEBUG) {
+        if LevelFilter::DEBUG <= LevelFilter::current() {
             let facts = moved.iter().flat_map(|advanced| &advanced.facts);
             facts.for_each(|fact| tracing::debug!("{fact:?}"));
         }
