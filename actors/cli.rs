@@ -56,10 +56,11 @@ Examples:
 
 Every command has --help with an example. With --json a command prints JSON lines on stdout, the
 last of which is {\"summary\":{..}}.
-Log: warnings go to stderr; -v, -vv and -vvv say more. RUST_LOG chooses by module, and every actor is
-one: hapticbillard_actors::conductor, event_manager, physics, rules, ai, input, haptic, sound,
-recorder, renderer. RUST_LOG=warn,hapticbillard_actors::rules=debug tells all that the rules decide.
-`play` also writes a log a day into the folder logs/ in the user's data folder and keeps the last 7.
+Log: warnings go to stderr; -v, -vv and -vvv say more. RUST_LOG chooses by module, and every actor
+is one: hapticbillard_actors::conductor, event_manager, physics, rules, ai, input, haptic, sound,
+recorder, renderer. RUST_LOG=warn,hapticbillard_actors::rules=debug tells all that the rules decide;
+hapticbillard_actors::shot=info in it names the shot on every line. `play` also writes a log a day
+into the folder logs/ in the user's data folder and keeps the last 7.
 Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
 
 #[derive(Parser)]

@@ -33,6 +33,13 @@ pub struct Sink {
     pub dropped: Arc<AtomicU64>,
 }
 
+impl Sink {
+    /// Nothing was dropped yet.
+    pub fn new(name: &'static str, topics: Topics, mail: flume::Sender<Delivered>) -> Self {
+        Sink { name, topics, mail, dropped: Arc::default() }
+    }
+}
+
 enum Subscriber {
     Seat(Source, Ask),
     Sink(Sink),

@@ -1,12 +1,12 @@
 //! What the program says about itself: lines on stderr, and the same in a file.
 //!
 //! Who says it is the module's path, so that `RUST_LOG` can choose by actor:
-//! `hapticbillard_actors::rules=debug`. What dependencies say through the `log` crate comes the same
-//! way. From `info` on a line also tells in which shot it was said, see [`crate::shot`].
+//! `hapticbillard_actors::rules=debug`. What dependencies say through the `log` crate comes the
+//! same way. From `info` on a line also tells in which shot it was said, see [`crate::shot`].
 //!
-//! The file of [`LogFile::Daily`] is begun anew every day; [`KEPT`] of them stay. Lines reach a file
-//! through a queue and a thread of its own, so that nobody waits for a disk: when [`WAITING`] lines
-//! wait, further ones are dropped, and how many is said on stderr at the end.
+//! The file of [`LogFile::Daily`] is begun anew every day; [`KEPT`] of them stay. Lines reach a
+//! file through a queue and a thread of its own, so that nobody waits for a disk: when [`WAITING`]
+//! lines wait, further ones are dropped, and how many is said on stderr at the end.
 //!
 //! The servo's thread and the audio callback say nothing here: they only count.
 

@@ -1,8 +1,8 @@
 //! Which shot it is, for the log: a span that lasts from one turn to the next.
 //!
-//! The event manager begins it when it delivers a turn. It goes with the mail to those who take part
-//! in the tick, and back to the conductor. Below the level `info` there is none, and it costs the
-//! look at one flag.
+//! The event manager begins it when it delivers a turn. It goes with the mail to those who take
+//! part in the tick, and back to the conductor. Below the level `info` there is none, and it costs
+//! the look at one flag.
 
 use hapticbillard::events::{Event, Stamped};
 use hapticbillard::units::Tick;

@@ -19,7 +19,6 @@ use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
 use std::thread::{self, JoinHandle};
 use three_d::Context;
 
@@ -118,8 +117,7 @@ impl Running {
         let (view_in, view) = triple_buffer::triple_buffer(&HumanView::default());
         let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
         let (mail_in, mail) = flume::bounded(MAIL);
-        let dropped = Arc::new(AtomicU64::new(0));
-        let sink = Sink { name: "window", topics: Scoreboard::topics(), mail: mail_in, dropped };
+        let sink = Sink::new("window", Scoreboard::topics(), mail_in);
         let meters = Arc::new(Meters::default());
         let measured = meters.clone();
         let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };

@@ -2,8 +2,8 @@
 //!
 //! | queue | when it is full | test |
 //! |---|---|---|
-//! | events of the event manager | the tick ends in an error, the event is counted as refused | `more_events_than_…` |
-//! | mailbox of a participant | the mail is refused, the tick ends in an error | `a_participant_that_takes_…` |
+//! | events of the event manager | the tick ends in an error | `more_events_than_…` |
+//! | mailbox of a participant | the mail is refused: an error | `a_participant_that_takes_…` |
 //! | mail of a sink | its own mail is dropped and counted | `ten_times_…` |
 //! | news for the player | dropped and counted | `news_that_nobody_takes_…` |
 //! | the mouse's way into a device | movements are dropped and counted | `a_mouse_whose_device_…` |
