@@ -37,6 +37,8 @@ mod report;
 
 mod learn;
 
+mod soak;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -87,6 +89,7 @@ enum Command {
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
+    Soak(soak::SoakArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -146,6 +149,7 @@ pub fn run() -> ExitCode {
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
+        Command::Soak(args) => soak::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

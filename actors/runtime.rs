@@ -7,6 +7,7 @@
 
 use crate::ai::{Ai, ThinkAhead};
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
+use crate::crew::{Crew, MAILBOX};
 use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
 use crate::input::{Hand, Input, StandIn, frame_door};
@@ -29,10 +30,6 @@ use kameo::mailbox;
 use kameo::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// How many messages an actor of the tick can have waiting: it is asked once a tick and answers
-/// before the next, so two are one more than ever wait. When it is full the asker waits.
-const MAILBOX: usize = 2;
 
 /// How a cast is run.
 pub struct Setup {
@@ -120,45 +117,6 @@ impl Setup {
             workers: 1,
             stop: StopFlag::default(),
             crew: Crew::default(),
-        }
-    }
-}
-
-/// Spawns the actors of the tick, and tells of each whoever supervises them.
-#[derive(Clone, Default)]
-pub struct Crew(pub Option<flume::Sender<Member>>);
-
-/// One of the crew.
-pub struct Member {
-    /// Its name.
-    pub name: &'static str,
-    kill: Box<dyn Fn() + Send>,
-}
-
-impl Member {
-    /// Kills it, if it lives.
-    pub fn kill(&self) {
-        (self.kill)();
-    }
-}
-
-impl Crew {
-    fn join<A: Actor<Args = A>>(&self, name: &'static str, actor: A) -> ActorRef<A> {
-        let actor = A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX));
-        self.tell(name, &actor);
-        actor
-    }
-
-    fn tell<A: Actor>(&self, name: &'static str, actor: &ActorRef<A>) {
-        if let Some(told) = &self.0 {
-            let actor = actor.downgrade();
-            let kill = Box::new(move || {
-                if let Some(actor) = actor.upgrade() {
-                    actor.kill();
-                }
-            });
-            // Whoever has left need not know.
-            let _ = told.send(Member { name, kill });
         }
     }
 }

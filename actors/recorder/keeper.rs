@@ -91,7 +91,7 @@ impl Keeper {
         if self.gave_up {
             return None;
         }
-        let tick = tick_of(&line);
+        let tick = line.tick();
         let is_last = matches!(line, Line::End { .. });
         self.waiting.push_back(line);
         // Whoever is down is left alone for a while, unless there is no later.
@@ -120,8 +120,15 @@ impl Keeper {
         self.give_up_when_full()
     }
 
-    /// Waits until the recorder has stopped, and says what is missing.
+    /// Waits until the recorder has stopped, and says what is missing. What waits for one is
+    /// written now: there is no later.
     pub async fn end(mut self) -> Option<Lost> {
+        if !self.gave_up && !self.waiting.is_empty() {
+            self.recorder = None;
+            if let Err(failure) = self.write_waiting().await {
+                self.reason = failure.to_string();
+            }
+        }
         if let Some(recorder) = self.recorder.take() {
             // One that has stopped already is what is wanted.
             let _ = recorder.stop_gracefully().await;
@@ -153,18 +160,10 @@ impl Keeper {
         while let (Some(line), Some(recorder)) = (self.waiting.front(), &self.recorder) {
             let written = recorder.ask(Record(line.clone())).send().await;
             self.length = written.map_err(|error| Failure::Gone(error.to_string()))?.0?;
-            self.reached = tick_of(line);
+            self.reached = line.tick();
             self.waiting.pop_front();
         }
         Ok(())
-    }
-}
-
-fn tick_of(line: &Line) -> Tick {
-    match line {
-        Line::Recording(_) => Tick(0),
-        Line::Frame { tick, .. } | Line::End { tick, .. } => *tick,
-        Line::Hash(hash) => hash.tick,
     }
 }
 
