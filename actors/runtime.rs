@@ -190,16 +190,6 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let (keeper, felt_world) = felt.unzip();
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
 
-    let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
-    let physics_ref = physics.actor_ref().clone();
-    crew.tell("physics", &physics_ref);
-    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
-    if setup.physics_thread {
-        physics.spawn_in_thread(body);
-    } else {
-        physics.spawn(body);
-    }
-
     let recording = match setup.record {
         None => None,
         Some((path, header)) => {
@@ -212,6 +202,15 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
     let events = crew.join("event manager", events);
+    let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
+    let physics_ref = physics.actor_ref().clone();
+    crew.tell("physics", &physics_ref);
+    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
+    if setup.physics_thread {
+        physics.spawn_in_thread(body);
+    } else {
+        physics.spawn(body);
+    }
     let below = Below {
         physics: physics_ref.clone(),
         events: events.clone(),

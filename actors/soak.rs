@@ -18,5 +18,5 @@ pub use jostle::Jostle;
 pub use plan::{FaultKind, Planned, Survival, Victim, faults, survival};
 pub use process::{Growth, MOMENTS_MIN, Use};
 pub use saboteur::{Saboteur, Struck};
-pub use trial::{Played, Reference, Trial, Wrong, end_of, play, reference};
+pub use trial::{Ended, Played, Reference, Trial, Wrong, end_of, play, reference};
 pub use witness::{Seen, Witness};

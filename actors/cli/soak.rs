@@ -89,13 +89,13 @@ pub fn run(args: &SoakArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let mut all = StateHash::new();
     let mut moments = Vec::new();
     for number in args.first.. {
-        let played = number - args.first;
+        let count = number - args.first;
         let is_late = time.is_some_and(|time| time <= begin.elapsed());
-        if args.games.is_some_and(|count| count <= played) || (is_late && 0 < played) {
+        if args.games.is_some_and(|games| games <= count) || (is_late && 0 < count) {
             break;
         }
         let (stage, seed) = games.at(number)?;
-        let reference = soak::reference(&stage, seed)?;
+        let reference = soak::reference(&stage, seed, LIMIT)?;
         reference.seen.events.iter().for_each(|event| all.u64(event.0));
         let workers = args.workers[(number % args.workers.len() as u64) as usize];
         let planned = match args.faults {
@@ -111,15 +111,15 @@ pub fn run(args: &SoakArgs, out: &mut dyn Write) -> Result<Status, Error> {
         };
         let file = folder.0.join(format!("game-{number}.jsonl"));
         let base = Setup::headless(LIMIT);
-        let result = soak::play(&stage, &reference, &trial, &file, base);
-        let hangs = matches!(result, Err(Wrong::Hangs));
-        told.game(&Game { number, workers, reference: &reference, result: &result }, out)?;
+        let played = soak::play(&stage, &reference, &trial, &file, base);
+        told.game(&Game { number, workers, reference: &reference, played: &played }, out)?;
         moments.extend(Use::now());
         match args.games {
             Some(_) => bar.inc(1),
             None => bar.set_position(begin.elapsed().as_secs()),
         }
-        if hangs {
+        // Its threads are still there: what comes after would be disturbed by more than was planned.
+        if matches!(played.ended, Err(Wrong::Hangs)) {
             break;
         }
     }

@@ -80,13 +80,8 @@ pub enum FaultKind {
 
 impl FaultKind {
     /// All.
-    pub const ALL: [FaultKind; 5] = [
-        FaultKind::Kill,
-        FaultKind::Panic,
-        FaultKind::Stall,
-        FaultKind::Delay,
-        FaultKind::Flood,
-    ];
+    pub const ALL: [FaultKind; 5] =
+        [FaultKind::Kill, FaultKind::Panic, FaultKind::Stall, FaultKind::Delay, FaultKind::Flood];
 
     /// The kind of a fault.
     pub fn of(fault: Fault) -> Self {

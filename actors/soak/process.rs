@@ -98,10 +98,7 @@ mod tests {
         let leaks = moments(|n| Use { memory_kib: 20_000 + 100 * n, ..FLAT });
         assert!(Growth::over(&leaks).unwrap().faults()[0].starts_with("memory grew from 2"));
         let threads = moments(|n| Use { threads: 3 + n as usize / 40, ..FLAT });
-        assert_eq!(
-            Growth::over(&threads).unwrap().faults(),
-            ["there were 3 threads, and later 5"]
-        );
+        assert_eq!(Growth::over(&threads).unwrap().faults(), ["there were 3 threads, and later 5"]);
         assert!(Growth::over(&settles[..10]).is_none());
     }
 

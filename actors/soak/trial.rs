@@ -6,7 +6,7 @@ use crate::conductor::RunError;
 use crate::crew::{Crew, Roster};
 use crate::error::Error;
 use crate::files::{self, LineWriter};
-use crate::game::{LIMIT, Stage};
+use crate::game::Stage;
 use crate::recorder::Recorder;
 use crate::runtime::{self, InputPort, Setup};
 use hapticbillard::hash::Digest;
@@ -50,13 +50,22 @@ pub struct Trial {
     pub faults: Vec<Planned>,
 }
 
-/// What came of it, if it is as it must be.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// What came of it.
+#[derive(Debug)]
 pub struct Played {
-    /// It was stopped in order, because somebody failed who must not.
-    pub has_stopped: bool,
-    /// The faults that struck.
+    /// What struck.
     pub struck: Vec<Struck>,
+    /// How it ended, if it is as it must be.
+    pub ended: Result<Ended, Wrong>,
+}
+
+/// How a disturbed game ends that is as it must be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// As the undisturbed one: the same to the bit.
+    Same,
+    /// It was stopped in order, because somebody failed who must not.
+    Stopped,
 }
 
 /// Why a disturbed game is not as it must be.
@@ -113,34 +122,31 @@ pub fn end_of(finished: &Finished) -> String {
     format!("{:?} {hash}", finished.end)
 }
 
-/// Plays a game in lockstep.
+/// Plays a game in lockstep, until `limit` at the latest.
 ///
 /// # Errors
 /// [`Error`] if it cannot be played.
-pub fn reference(stage: &Stage, seed: u64) -> Result<Reference, Error> {
+pub fn reference(stage: &Stage, seed: u64, limit: Tick) -> Result<Reference, Error> {
     let mut lines = vec![(Tick(0), Line::Recording(stage.header()).to_json())];
     let mut write = |line: &Line| lines.push((line.tick(), line.to_json()));
     let record: Option<&mut dyn FnMut(&Line)> = Some(&mut write);
     let witness = Witness::default();
     let observers: Vec<Box<dyn Participant>> = vec![Box::new(witness.clone())];
     let input = Some(Box::new(Chatter { seed }) as Box<_>);
-    let setup = lockstep::Setup { record, observers, input, ..lockstep::Setup::headless(LIMIT) };
+    let setup = lockstep::Setup { record, observers, input, ..lockstep::Setup::headless(limit) };
     let finished = lockstep::run(stage.cast()?, setup).map_err(RunError::from)?;
     Ok(Reference { finished, lines, seen: witness.seen() })
 }
 
 /// Plays the same game by actors, disturbs them, and compares. The game is recorded into `file`,
 /// which is gone afterwards unless something is wrong. `base` says what else there is.
-///
-/// # Errors
-/// [`Wrong`]: what is not as it must be.
 pub fn play(
     stage: &Stage,
     reference: &Reference,
     trial: &Trial,
     file: &Path,
     base: Setup,
-) -> Result<Played, Wrong> {
+) -> Played {
     let (crew, roster) = Crew::watched();
     let witness = Witness::default();
     let (saboteur, struck) = Saboteur::new(&trial.faults, roster.clone());
@@ -164,52 +170,62 @@ pub fn play(
     let jostle = trial.is_jostled.then(|| Jostle::begin(trial.seed, roster.clone()));
     let ended = run_patiently(stage, setup);
     drop(jostle);
-    let ended = ended?;
     let struck = struck.lock().unwrap_or_else(PoisonError::into_inner).clone();
-    let ending = struck.iter().find(|struck| struck.victims > 0 && ends(struck.planned));
-    let played = Played { has_stopped: ended.is_err(), struck: struck.clone() };
+    let ended = ended.and_then(|ended| judge(reference, ended, &struck, &witness.seen(), file));
+    let ended = ended.and_then(|ended| match left(&roster) {
+        left if left.is_empty() => Ok(ended),
+        left => Err(Wrong::Left(left.join(", "))),
+    });
+    if ended.is_ok() {
+        files::remove(file);
+        files::remove(&LineWriter::draft_of(file));
+    }
+    Played { struck, ended }
+}
+
+/// Whether a game that has ended is as it must be.
+fn judge(
+    reference: &Reference,
+    ended: Result<Finished, RunError>,
+    struck: &[Struck],
+    seen: &Seen,
+    file: &Path,
+) -> Result<Ended, Wrong> {
+    let has_hit = |struck: &&Struck| struck.victims > 0;
+    let ending = struck.iter().filter(has_hit).find(|struck| ends(struck.planned));
     match (ended, ending) {
         (Ok(finished), None) => {
             let (expected, found) = (end_of(&reference.finished), end_of(&finished));
             if expected != found {
                 return Err(Wrong::End { expected, found });
             }
-            has_all(reference, &witness.seen(), None)?;
+            has_all(reference, seen, None)?;
             is_recorded(reference, file, None)?;
+            Ok(Ended::Same)
         }
+        // Who is struck when nobody needs them any more is not missed.
         (Ok(finished), Some(ending)) => {
-            // Who is struck when nobody needs them any more is not missed.
-            if end_of(&finished) != end_of(&reference.finished) || !is_last(reference, ending) {
-                return Err(Wrong::WentOn(ending.planned.victim.name()));
-            }
+            let is_same = end_of(&finished) == end_of(&reference.finished);
+            let is_last = reference.seen.batches <= ending.planned.batch + 1;
+            let missed = ending.planned.victim.name();
+            if is_same && is_last { Ok(Ended::Same) } else { Err(Wrong::WentOn(missed)) }
         }
-        (Err(error), None) => return Err(Wrong::Stopped(error)),
+        (Err(error), None) => Err(Wrong::Stopped(error)),
         (Err(_), Some(ending)) => {
-            has_all(reference, &witness.seen(), Some(ending.tick))?;
+            has_all(reference, seen, Some(ending.tick))?;
             // Who strikes conductor and recorder takes what one had for the other.
-            let was_recorder = |s: &Struck| s.planned.victim == Victim::Recorder;
+            let is_recorder = |struck: &Struck| struck.planned.victim == Victim::Recorder;
             let is_cut = ending.planned.victim == Victim::Conductor
-                && struck.iter().any(|s| was_recorder(s) && s.victims > 0);
+                && struck.iter().filter(has_hit).any(is_recorder);
             let up_to = if is_cut { Tick(0) } else { ending.tick };
             is_recorded(reference, &LineWriter::draft_of(file), Some(up_to))?;
+            Ok(Ended::Stopped)
         }
     }
-    let left = left(&roster);
-    if !left.is_empty() {
-        return Err(Wrong::Left(left.join(", ")));
-    }
-    files::remove(file);
-    files::remove(&LineWriter::draft_of(file));
-    Ok(played)
 }
 
 fn ends(planned: Planned) -> bool {
     survival(planned.victim, FaultKind::of(planned.fault)) == Survival::Stops
-}
-
-/// Nothing more was delivered after this strike.
-fn is_last(reference: &Reference, struck: &Struck) -> bool {
-    reference.seen.batches <= struck.planned.batch + 1
 }
 
 /// Runs a game on a thread of its own, so that one that hangs is noticed.
@@ -247,7 +263,10 @@ fn has_all(reference: &Reference, seen: &Seen, up_to: Option<Tick>) -> Result<()
 
 /// Every line is on disk, in order, up to a tick: byte for byte.
 fn is_recorded(reference: &Reference, file: &Path, up_to: Option<Tick>) -> Result<(), Wrong> {
-    let text = files::read_text(file, RECORDING_MAX)?;
+    is_the_same(reference, &files::read_text(file, RECORDING_MAX)?, up_to)
+}
+
+fn is_the_same(reference: &Reference, text: &str, up_to: Option<Tick>) -> Result<(), Wrong> {
     let mut found = text.split_inclusive('\n');
     for (at, (tick, line)) in reference.lines.iter().enumerate() {
         let is_same = match found.next() {
@@ -278,4 +297,58 @@ fn left(roster: &Roster) -> Vec<&'static str> {
         std::thread::sleep(Duration::from_millis(5));
     }
     roster.living()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reference() -> Reference {
+        let lines = (0..4).map(|n| (Tick(10 * n), format!("line {n}"))).collect();
+        let events: Vec<Digest> = (0..6).map(Digest).collect();
+        let ticks = (0..6).map(|n| Tick(5 * n)).collect();
+        let finished = Finished {
+            end: hapticbillard::tick::End::Over,
+            tick: Tick(30),
+            hash: None,
+            verified: 0,
+        };
+        Reference { finished, lines, seen: Seen { events, ticks, batches: 6 } }
+    }
+
+    fn recorded(text: &str, up_to: Option<Tick>) -> Option<String> {
+        is_the_same(&reference(), text, up_to).err().map(|wrong| wrong.to_string())
+    }
+
+    #[test]
+    fn a_recording_that_misses_a_line_or_a_byte_is_found_out() {
+        let whole = "line 0\nline 1\nline 2\nline 3\n";
+        assert_eq!(recorded(whole, None), None);
+        let wrong = |line, tick| {
+            Some(format!("line {line} of the recording is missing or another one (tick {tick})"))
+        };
+        assert_eq!(recorded("line 0\nline 1\n", None), wrong(3, 20));
+        assert_eq!(recorded("line 0\nline 1\nline 3\n", None), wrong(3, 20));
+        assert_eq!(recorded("line 0\nline 1\nline 2\nline 3", None), wrong(4, 30));
+        assert_eq!(recorded(&format!("{whole}line 4\n"), None), wrong(5, 30));
+        // What was struck in tick 20 has recorded all before it.
+        assert_eq!(recorded("line 0\nline 1\n", Some(Tick(20))), None);
+        assert_eq!(recorded("line 0\n", Some(Tick(20))), wrong(2, 10));
+    }
+
+    #[test]
+    fn events_that_are_missing_or_others_are_found_out() {
+        let reference = reference();
+        let heard = |events: &[u64], up_to| {
+            let events: Vec<Digest> = events.iter().copied().map(Digest).collect();
+            let seen = Seen { events, ..Seen::default() };
+            has_all(&reference, &seen, up_to).is_ok()
+        };
+        assert!(heard(&[0, 1, 2, 3, 4, 5], None));
+        assert!(!heard(&[0, 1, 2, 3, 4], None) && !heard(&[0, 2, 1, 3, 4, 5], None));
+        assert!(!heard(&[0, 1, 2, 3, 4, 5, 6], None));
+        // All before tick 15 were due.
+        assert!(heard(&[0, 1, 2], Some(Tick(15))) && heard(&[0, 1, 2, 3], Some(Tick(15))));
+        assert!(!heard(&[0, 1], Some(Tick(15))) && !heard(&[0, 1, 2, 9], Some(Tick(15))));
+    }
 }

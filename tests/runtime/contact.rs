@@ -7,11 +7,11 @@ use hapticbillard::haptic::{Device, DeviceSpec, DeviceState, DeviceStatus, Force
 use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
+use hapticbillard_actors::crew::{Crew, Fault, Roster};
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{Asked, Core, Opened, Plan, Seat, Signs, Started};
 use hapticbillard_actors::pacer::{StopFlag, Tempo};
-use hapticbillard_actors::crew::{Crew, Fault, Roster};
 use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};

@@ -3,7 +3,9 @@
 use crate::cli::{Status, json_line};
 use hapticbillard::hash::Digest;
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::soak::{FaultKind, Growth, Played, Reference, Victim, Wrong, end_of};
+use hapticbillard_actors::soak::{
+    Ended, FaultKind, Growth, Played, Reference, Struck, Victim, end_of,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -18,7 +20,7 @@ pub struct Game<'a> {
     /// The game as it must be.
     pub reference: &'a Reference,
     /// What became of it.
-    pub result: &'a Result<Played, Wrong>,
+    pub played: &'a Played,
 }
 
 /// A line of JSON about a game.
@@ -88,10 +90,9 @@ impl Told {
         self.games += 1;
         self.ticks += game.reference.finished.tick.0;
         self.events += game.reference.seen.events.len() as u64;
-        let (struck, stopped, wrong) = match game.result {
-            Ok(played) => (played.struck.as_slice(), played.has_stopped, None),
-            Err(wrong) => (&[][..], false, Some(wrong.to_string())),
-        };
+        let Played { struck, ended } = game.played;
+        let stopped = matches!(ended, Ok(Ended::Stopped));
+        let wrong = ended.as_ref().err().map(ToString::to_string);
         self.stopped += u64::from(stopped);
         for one in struck.iter().filter(|one| 0 < one.victims) {
             let kind = FaultKind::of(one.planned.fault);
@@ -106,7 +107,7 @@ impl Told {
             self.wrong.push(line);
         }
         if self.is_json {
-            let fault = |one: &hapticbillard_actors::soak::Struck| FaultLine {
+            let fault = |one: &Struck| FaultLine {
                 tick: one.tick.0,
                 victim: one.planned.victim,
                 kind: FaultKind::of(one.planned.fault),
