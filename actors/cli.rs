@@ -39,6 +39,8 @@ mod learn;
 
 mod soak;
 
+mod doctor;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -90,6 +92,7 @@ enum Command {
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
     Soak(soak::SoakArgs),
+    Doctor(doctor::DoctorArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -150,6 +153,7 @@ pub fn run() -> ExitCode {
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
         Command::Soak(args) => soak::run(&args, &mut out),
+        Command::Doctor(args) => doctor::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,
