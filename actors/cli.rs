@@ -37,6 +37,10 @@ mod report;
 
 mod learn;
 
+mod soak;
+
+mod doctor;
+
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::logging::{self, LogFile};
@@ -98,6 +102,8 @@ enum Command {
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
+    Soak(soak::SoakArgs),
+    Doctor(doctor::DoctorArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -155,6 +161,8 @@ pub fn run() -> ExitCode {
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
+        Command::Soak(args) => soak::run(&args, &mut out),
+        Command::Doctor(args) => doctor::run(&args, &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

@@ -71,11 +71,15 @@ pub mod meters;
 
 pub mod news;
 
+pub mod crew;
+
 pub mod runtime;
 
 pub mod stopwatch;
 
 pub mod game;
+
+pub mod soak;
 
 #[cfg(feature = "renderer")]
 pub mod renderer;

@@ -7,9 +7,9 @@ mod recent;
 
 pub use recent::Recent;
 
+use crate::crew::{Blow, Crew};
 use crate::event_manager::Sink;
 use crate::news::News;
-use crate::runtime::Crew;
 use hapticbillard::renderer::QueueReading;
 use hapticbillard::units::Tick;
 use kameo::prelude::*;
@@ -108,8 +108,7 @@ impl Meters {
         readings
     }
 
-    /// The mailbox of an actor. Whoever finds it full waits, or is refused and told so: nothing is
-    /// lost in it.
+    /// The mailbox of an actor. Whoever finds it full waits: nothing is lost in it.
     pub fn watch_mailbox<A: Actor>(&self, name: &str, actor: &ActorRef<A>) {
         let actor = actor.downgrade();
         self.watch(name.to_string(), move || {
@@ -165,14 +164,18 @@ pub struct Watched {
 
 impl Watched {
     /// As [`Crew::join`].
-    pub fn join<A: Actor<Args = A>>(&self, name: &'static str, actor: A) -> ActorRef<A> {
+    pub fn join<A: Message<Blow> + Actor<Args = A>>(
+        &self,
+        name: &'static str,
+        actor: A,
+    ) -> ActorRef<A> {
         let actor = self.crew.join(name, actor);
         self.watch(name, &actor);
         actor
     }
 
     /// As [`Crew::tell`].
-    pub fn tell<A: Actor>(&self, name: &'static str, actor: &ActorRef<A>) {
+    pub fn tell<A: Message<Blow>>(&self, name: &'static str, actor: &ActorRef<A>) {
         self.crew.tell(name, actor);
         self.watch(name, actor);
     }

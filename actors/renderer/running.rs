@@ -1,6 +1,7 @@
 //! One game beside its window: its thread, and the window's ends of what joins them.
 
 use super::felt::{FeltScreen, FeltSetup};
+use super::game_thread::GameThread;
 use super::heard::{HeardScreen, HeardSetup};
 use super::meters::MetersScreen;
 use super::outbox::Outbox;
@@ -17,9 +18,7 @@ use hapticbillard::renderer::{
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
-use std::thread::{self, JoinHandle};
 use three_d::Context;
 
 /// Reports that may wait for the hand, which empties the channel every tick; see [`Outbox`].
@@ -97,8 +96,7 @@ pub struct Running {
     radii: Radii,
     table: Arc<Table>,
     felt: Option<FeltScreen>,
-    /// None when it is over.
-    thread: Option<JoinHandle<thread::Result<Result<Finished, RunError>>>>,
+    thread: GameThread,
 }
 
 impl Running {
@@ -121,14 +119,7 @@ impl Running {
         let meters = Arc::new(Meters::default());
         let measured = meters.clone();
         let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
-        let thread = thread::Builder::new()
-            .name("game".into())
-            .spawn(move || {
-                let finished = panic::catch_unwind(AssertUnwindSafe(|| play(ports)));
-                ended();
-                finished
-            })
-            .map_err(|error| RunError::Start(format!("no thread for the game: {error}")))?;
+        let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
             stage: Stage::new(context, &setup.table),
             outbox: Outbox::new(raw_in),
@@ -147,7 +138,7 @@ impl Running {
             radii: setup.radii,
             table: setup.table,
             felt: setup.felt.map(FeltScreen::new),
-            thread: Some(thread),
+            thread,
         })
     }
 
@@ -160,10 +151,7 @@ impl Running {
     /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
     /// before.
     pub fn join(&mut self) -> Option<Result<Finished, RunError>> {
-        match self.thread.take()?.join() {
-            Ok(Ok(finished)) => Some(finished),
-            Ok(Err(payload)) | Err(payload) => panic::resume_unwind(payload),
-        }
+        self.thread.join()
     }
 
     /// What the player sees and does.

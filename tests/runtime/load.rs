@@ -3,10 +3,10 @@
 //! | queue | when it is full | test |
 //! |---|---|---|
 //! | events of the event manager | the tick ends in an error | `more_events_than_…` |
-//! | mailbox of a participant | the mail is refused: an error | `a_participant_that_takes_…` |
+//! | mailbox of a participant | the mail waits, so does the tick | `a_participant_that_takes_…` |
 //! | mail of a sink | its own mail is dropped and counted | `ten_times_…` |
 //! | news for the player | dropped and counted | `news_that_nobody_takes_…` |
-//! | the mouse's way into a device | movements are dropped and counted | `a_mouse_whose_device_…` |
+//! | the mouse into a device | movements are dropped, counted | `a_mouse_whose_device_…` |
 //! | reports of a window | movements add up, the rest waits | unit tests of `renderer::outbox` |
 //! | samples, buttons, telemetry of a servo | the oldest stay, loss is counted | `servo` |
 //! | readings of a device | dropped and counted | `device_recordings` |
@@ -30,9 +30,8 @@ use hapticbillard_actors::game::{LIMIT as LAST, Stage};
 use hapticbillard_actors::haptic::{FeltMouse, open};
 use hapticbillard_actors::news::News;
 use hapticbillard_actors::observer::Observer;
-use hapticbillard_actors::participant::{self, Answer, Asked, Mail, Seat, door};
+use hapticbillard_actors::participant::{self, Answer, Mail, Seat, door};
 use hapticbillard_actors::runtime::{self, Setup};
-use kameo::error::SendError;
 use kameo::mailbox;
 use kameo::prelude::*;
 use std::path::Path;
@@ -264,43 +263,42 @@ fn a_participant_that_floods_a_game_ends_it_with_an_error_that_says_so() {
 /// Answers when the test lets it.
 #[derive(Actor)]
 struct Gated {
-    begun: UnboundedSender<()>,
+    begun: UnboundedSender<Tick>,
     gate: UnboundedReceiver<()>,
 }
 
 impl Message<Mail> for Gated {
     type Reply = Answer;
 
-    async fn handle(&mut self, _: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        self.begun.send(()).unwrap();
+    async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
+        self.begun.send(mail.0.tick).unwrap();
         self.gate.recv().await.unwrap();
         participant::start(&mut Speaks::new(0, Tick(0)).0, &Snapshot::default())
     }
 }
 
 #[tokio::test]
-async fn a_participant_that_takes_nothing_is_refused_mail_and_the_mail_comes_back() {
+async fn a_participant_that_takes_its_time_is_waited_for_and_gets_all_its_mail_in_order() {
     let ((begun, mut begins), (open, gate)) = (unbounded_channel(), unbounded_channel());
     let gated = Gated::spawn_with_mailbox(Gated { begun, gate }, mailbox::bounded(1));
-    let ask = door(gated);
+    let ask = door(gated.clone());
     let mail = |tick| {
         let (events, table) = (Arc::from([]), Arc::default());
         Mail::from(Delivered { tick: Tick(tick), events, table })
     };
-    let in_hand = ask(mail(1));
-    begins.recv().await.unwrap();
-    let waiting = ask(mail(2));
-    match ask(mail(3)) {
-        Asked::Refused(error) => match *error {
-            SendError::MailboxFull(mail) => assert_eq!(mail.0.tick, Tick(3)),
-            error => panic!("{error}"),
-        },
-        _ => panic!("there was no room"),
+    let first = ask(mail(1));
+    assert_eq!(begins.recv().await, Some(Tick(1)));
+    // One fills the mailbox, and two find it full.
+    let others = [2, 3, 4].map(|tick| ask(mail(tick)));
+    assert_eq!(gated.mailbox_sender().capacity(), Some(0));
+    (0..4).for_each(|_| open.send(()).unwrap());
+    first.answer().await.unwrap();
+    for other in others {
+        other.answer().await.unwrap();
     }
-    open.send(()).unwrap();
-    open.send(()).unwrap();
-    in_hand.answer().await.unwrap();
-    waiting.answer().await.unwrap();
+    for tick in 2..=4 {
+        assert_eq!(begins.recv().await, Some(Tick(tick)));
+    }
 }
 
 #[test]

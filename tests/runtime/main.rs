@@ -58,6 +58,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// Disturbed games, held against undisturbed ones.
+mod soak;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
 /// Sound files: a player's recordings, and every class written.
