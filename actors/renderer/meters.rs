@@ -156,3 +156,46 @@ impl Pen<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hapticbillard::events::{Fact, FactKind, Source, Stamp, Stamped};
+    use hapticbillard::ids::BallId;
+    use hapticbillard::rules::Language;
+
+    fn mail(tick: Tick) -> Delivered {
+        let fact = Fact { time_s: 0.0, kind: FactKind::HeadStringCrossed { ball: BallId::CUE } };
+        let stamp = Stamp { tick, source: Source::Physics, sequence: 0 };
+        let events = Arc::from([Stamped { stamp, event: Event::Fact(fact) }]);
+        Delivered { tick, events, table: Arc::default() }
+    }
+
+    #[test]
+    fn what_is_not_shown_is_not_measured_and_what_is_shown_is() {
+        let meters = Arc::new(Meters::default());
+        let mut screen = MetersScreen::new(meters.clone());
+        let words = Words::new(Language::English);
+        screen.hear(&mail(Tick(1)));
+        screen.drawn(screen.now());
+        assert!(meters.now().is_none() && screen.now().is_none());
+        assert_eq!(screen.panel(&words, 0.0), None);
+
+        screen.show(true);
+        let begun = meters.now().unwrap();
+        meters.note_tick(Tick(7), begun);
+        let (sender, _receiver) = flume::bounded(8);
+        screen.look(&Outbox::new(sender));
+        screen.hear(&mail(Tick(7)));
+        screen.drawn(screen.now());
+        let panel = screen.panel(&words, 1.0).unwrap();
+        assert!(panel.rows[1].1.contains("median"), "a tick: {panel:?}");
+        assert!(panel.rows[3].1.contains("median"), "a picture: {panel:?}");
+        assert!(panel.rows[4].1.contains("median"), "a fact: {panel:?}");
+        assert_eq!(panel.queues[0].values, ["0", "8", "0"]);
+
+        screen.show(false);
+        assert!(meters.now().is_none());
+        assert_eq!(screen.panel(&words, 2.0), None);
+    }
+}

@@ -20,6 +20,7 @@ use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{Button, RawInput};
 use hapticbillard::physics::Snapshot;
+use hapticbillard::renderer::QueueReading;
 use hapticbillard::scene::{HapticDevice, Overrides};
 use hapticbillard::tick::{Delivered, Frame, Outcome, Participant};
 use hapticbillard::units::Tick;
@@ -28,6 +29,7 @@ use hapticbillard_actors::event_manager::{Delivery, DeliveryError, EventManager,
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::{LIMIT as LAST, Stage};
 use hapticbillard_actors::haptic::{FeltMouse, open};
+use hapticbillard_actors::meters::Meters;
 use hapticbillard_actors::news::News;
 use hapticbillard_actors::observer::Observer;
 use hapticbillard_actors::participant::{self, Answer, Mail, Seat, door};
@@ -327,4 +329,62 @@ fn a_mouse_whose_device_takes_nothing_loses_movements_and_they_are_counted() {
     assert!(0 < room && room < 1000, "{room}");
     mouse.hear(&RawInput::Button { button: Button::Left, down: true });
     assert_eq!(mouse.lost(), 1001 - room);
+}
+
+#[tokio::test]
+async fn meters_see_what_waits_and_was_lost_as_long_as_the_queue_is_there() {
+    let meters = Meters::default();
+    let ((begun, mut begins), (open, gate)) = (unbounded_channel(), unbounded_channel());
+    let gated = Gated::spawn_with_mailbox(Gated { begun, gate }, mailbox::bounded(3));
+    meters.watch_mailbox("gated", &gated);
+    let (slow, inbox, _) = sink("slow", 2);
+    meters.watch_sink(&slow);
+    let manager = EventManager::new(Vec::new(), vec![slow]).unwrap();
+    let manager = EventManager::spawn_with_mailbox(manager, mailbox::bounded(2));
+    for tick in 1..=5 {
+        seal(&manager, tick, 1).await.unwrap();
+    }
+    let ask = door(gated.clone());
+    let mail = || {
+        let (events, table) = (Arc::from([]), Arc::default());
+        Mail::from(Delivered { tick: Tick(1), events, table })
+    };
+    let asked = [ask(mail()), ask(mail())];
+    begins.recv().await.unwrap();
+    let reading =
+        |name: &str, waiting, room, lost| QueueReading { name: name.into(), waiting, room, lost };
+    assert_eq!(meters.queues(), [reading("gated", 1, 3, 0), reading("mail slow", 2, 2, 3)]);
+
+    (0..2).for_each(|_| open.send(()).unwrap());
+    for asked in asked {
+        asked.answer().await.unwrap();
+    }
+    drop(ask);
+    gated.stop_gracefully().await.unwrap();
+    gated.wait_for_shutdown().await;
+    assert_eq!(inbox.try_iter().count(), 2);
+    assert_eq!(meters.queues(), [reading("mail slow", 0, 2, 3)]);
+}
+
+#[test]
+fn a_game_is_measured_while_somebody_looks_and_is_the_same() {
+    let run = |meters: Option<Arc<Meters>>| {
+        let setup = Setup { meters, ..Setup::headless(Tick(10_000)) };
+        runtime::run(stage().cast().unwrap(), setup).unwrap()
+    };
+    let [off, on] = [false, true].map(|is_on| {
+        let meters = Arc::new(Meters::default());
+        meters.switch(is_on);
+        meters
+    });
+    let reference = run(None);
+    for meters in [&off, &on] {
+        let finished = run(Some(meters.clone()));
+        assert_eq!((finished.tick, finished.hash), (reference.tick, reference.hash.clone()));
+        // Nobody is left whose mailbox could be looked at.
+        assert_eq!(meters.queues(), []);
+    }
+    assert_eq!((off.ticks().noted(), off.newest()), (0, Tick(0)));
+    assert!(on.ticks().noted() > 10 && on.newest() > Tick(1000));
+    assert!(on.begin_of(on.newest()).is_some() && on.begin_of(Tick(3)).is_none());
 }
