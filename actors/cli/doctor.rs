@@ -72,9 +72,9 @@ fn write(found: &Found, out: &mut dyn Write) -> Result<(), Error> {
         Health::Missing => "missing",
         Health::Broken => "BROKEN",
     };
-    writeln!(out, "{mark:<8}{:<12}{}", found.what, found.found)?;
+    writeln!(out, "{mark:<9}{:<13}{}", found.what, found.found)?;
     if let Some(remedy) = &found.remedy {
-        writeln!(out, "{:<20}{remedy}", "")?;
+        writeln!(out, "{:<22}{remedy}", "")?;
     }
     Ok(())
 }

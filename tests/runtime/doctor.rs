@@ -54,8 +54,8 @@ fn what_cannot_be_written_or_read_is_said_in_words() {
         let line = said.lines().skip_while(|line| !line.starts_with(mark)).take(2);
         line.collect::<Vec<_>>().join(" ")
     };
-    let recordings = after("missing recordings");
+    let recordings = after("missing  recordings");
     assert!(recordings.contains("XDG_DATA_HOME"), "{said}");
-    assert!(after("missing settings").contains("settings.toml"), "{said}");
+    assert!(after("missing  settings").contains("settings.toml"), "{said}");
     assert!(said.contains("goes without what is missing"), "{said}");
 }

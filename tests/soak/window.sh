@@ -28,7 +28,7 @@ game=
 trap 'kill $game $pulse $xvfb 2>/dev/null || true' EXIT
 sleep 2
 
-"$program" -v play --scene "$here/watched.toml" >game.out 2>game.log &
+"$program" play --scene "$here/watched.toml" >game.out 2>game.log &
 game=$!
 echo "seconds,memory_kib,threads,handles" >use.csv
 end=$(($(date +%s) + minutes * 60))

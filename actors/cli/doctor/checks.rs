@@ -168,12 +168,20 @@ fn picture() -> Vec<Found> {
     vec![Found::missing("OpenGL", "this program was built without a window", remedy)]
 }
 
+/// What ALSA lists beside outputs: it changes sound on its way, or drops it.
+const PLUGINS: [&str; 7] =
+    ["null", "lavrate", "samplerate", "speexrate", "speex", "upmix", "vdownmix"];
+
 fn speakers() -> Vec<Found> {
     let remedy = "games are silent until there is one; a scene can name it in [sound]";
     vec![match sound::system().outputs() {
         Ok(outputs) if outputs.is_empty() => Found::missing("sound", "there is no output", remedy),
         Ok(outputs) => {
-            let names: Vec<_> = outputs.iter().map(|output| output.name.as_str()).collect();
+            let names = outputs.iter().map(|output| output.name.as_str());
+            let names: Vec<_> = names.filter(|name| !PLUGINS.contains(name)).collect();
+            if names.is_empty() {
+                return vec![Found::missing("sound", "there is no output but plugins", remedy)];
+            }
             let first = names.iter().take(4).copied().collect::<Vec<_>>().join(", ");
             let more = names.len().saturating_sub(4);
             let more = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -185,7 +193,9 @@ fn speakers() -> Vec<Found> {
 
 /// Those that can be there or not.
 fn devices() -> Vec<Found> {
-    let real = haptic::list().into_iter().filter(|device| device.says.is_some());
+    let is_real =
+        |device: &haptic::Listed| device.says.is_some() && !device.name.starts_with("recorded");
+    let real = haptic::list().into_iter().filter(is_real);
     real.map(|device| {
         let says = device.says.unwrap_or_default();
         match device.spec {

@@ -189,7 +189,7 @@ impl Host for House<'_> {
             false => (None, None),
         };
         self.record = recording(self.args, is_first);
-        let mut felt = felt(&self.stage, !self.stage.scene.has_hand(), telemetry)?;
+        let mut felt = felt(&self.stage, self.stage.scene.is_led(), telemetry)?;
         self.telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
         let (prepared, recorder) =
             prepared(&self.stage, None, felt, self.record.clone(), device, *speed)?;
@@ -294,7 +294,7 @@ fn prepared(
     let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
     let (plan, recorder) = tapped(plan, record_device)?;
     let has_cue = stage.scene.cue.is_some();
-    let players = stage.scene.human_players();
+    let (players, is_led) = (stage.scene.human_players(), stage.scene.is_led());
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let play = move |ports: Ports| {
         let Ports { raw, view, world, sink, meters } = ports;
@@ -317,7 +317,7 @@ fn prepared(
                 };
                 InputPort::Hand(Box::new(hand))
             }
-            None if haptic.is_some() => {
+            None if haptic.is_some() && is_led => {
                 let human = Human::new(players, table)
                     .with_ball_radius(radii.of(BallId::CUE))
                     .with_tip_radius(tip_radius_m);
