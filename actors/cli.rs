@@ -37,7 +37,11 @@ mod report;
 
 mod learn;
 
-use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+mod completions;
+
+mod man;
+
+use clap::{ArgAction, CommandFactory, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -87,6 +91,8 @@ enum Command {
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -146,6 +152,8 @@ pub fn run() -> ExitCode {
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
+        Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

@@ -75,7 +75,7 @@ fn root() -> &'static Path {
 /// Every text file of the repository that somebody wrote, with its path from the root.
 fn files() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = ["src", "actors", "assets", "config", "tests", ".ci"]
+    let mut folders: Vec<PathBuf> = ["src", "actors", "assets", "config", "tests", ".ci", ".github"]
         .iter()
         .map(|folder| root().join(folder))
         .collect();

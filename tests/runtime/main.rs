@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// The program away from its source.
+mod anywhere;
 /// Many shots at once.
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
@@ -29,8 +31,12 @@ mod haply;
 mod haptic;
 /// Somebody who hears events and keeps them.
 mod hearing;
+/// The licences of what is linked.
+mod licences;
 /// What `--json` prints, and what options change.
 mod json;
+/// Completions and manual pages.
+mod manual;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
