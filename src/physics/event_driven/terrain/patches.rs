@@ -49,8 +49,7 @@ const ON_EDGE_M: f64 = 1e-9;
 /// Merges coplanar neighbours into patches and finds edges and corners; returns each face's patch.
 pub(super) fn merge(mesh: &Mesh, terrain: &mut Terrain) -> Vec<u32> {
     let (points, mut flats) = weld(mesh);
-    cut_borders(&points, &mut flats);
-    let around = Around::new(&flats);
+    let around = cut_borders(&points, &mut flats);
     let patch_of = spread(&points, &flats, &around, terrain);
     find_edges(&points, &flats, &around, &patch_of, terrain);
     terrain.triangles =
@@ -86,8 +85,9 @@ fn weld(mesh: &Mesh) -> (Vec<DVec3>, Vec<Flat>) {
     (points, flats)
 }
 
-/// Cuts open borders at the corners of neighbours: a large face beside two small ones.
-fn cut_borders(points: &[DVec3], flats: &mut [Flat]) {
+/// Cuts open borders at the corners of neighbours: a large face beside two small ones. Returns the
+/// stretches that are left.
+fn cut_borders(points: &[DVec3], flats: &mut [Flat]) -> Around {
     let around = Around::new(flats);
     let open: Vec<((u32, u32), u32)> =
         around.stretches().filter_map(|faces| (faces.len() == 1).then_some(faces[0])).collect();
@@ -95,6 +95,7 @@ fn cut_borders(points: &[DVec3], flats: &mut [Flat]) {
     let x = |corner: &u32| points[*corner as usize].x;
     corners.sort_unstable_by(|a, b| x(a).total_cmp(&x(b)).then(a.cmp(b)));
     corners.dedup();
+    let mut is_cut = false;
     for ((a, b), face) in open {
         let (from, to) = (points[a as usize], points[b as usize]);
         let Some(along) = (to - from).try_normalize() else { continue };
@@ -117,10 +118,12 @@ fn cut_borders(points: &[DVec3], flats: &mut [Flat]) {
         cuts.sort_unstable_by(|one, two| one.0.total_cmp(&two.0));
         let stops: Vec<u32> =
             [a].into_iter().chain(cuts.into_iter().map(|(_, corner)| corner)).chain([b]).collect();
+        is_cut = true;
         let border = &mut flats[face as usize].border;
         border.retain(|ends| *ends != (a, b) && *ends != (b, a));
         border.extend(stops.windows(2).map(|pair| (pair[0], pair[1])));
     }
+    if is_cut { Around::new(flats) } else { around }
 }
 
 /// Spreads from a first face to all neighbours that lie in its plane; returns each face's patch.

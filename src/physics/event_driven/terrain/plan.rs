@@ -11,6 +11,7 @@ use super::{InReach, Listed, Terrain};
 use glam::{DVec2, DVec3, IVec2};
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// So many cells of the plan lie along a coarse cell of the grid.
 const FINER: i32 = 4;
@@ -42,8 +43,9 @@ pub struct Plans {
     pub height_m: f64,
     /// For balls that the bed carries, which is left out of it.
     pub carried: Plan,
-    /// For balls whose centre is no higher than `top_m`, the bed included.
-    pub low: Plan,
+    /// For balls whose centre is no higher than `top_m`, the bed included; drawn when the first
+    /// ball hops.
+    low: OnceLock<Plan>,
     /// See `low` [m].
     pub top_m: f64,
 }
@@ -104,8 +106,12 @@ impl Terrain {
         let height_m = main.offset / main.normal.z + self.radius_m;
         let top_m = height_m + HOP_M;
         let carried = self.draw_plan((height_m, height_m), |parts| self.forget(self.main, parts));
-        let low = self.draw_plan((height_m, top_m), |_| ());
-        Some(Plans { height_m, carried, low, top_m })
+        Some(Plans { height_m, carried, low: OnceLock::new(), top_m })
+    }
+
+    /// The plan for balls that hop.
+    pub fn low_plan<'a>(&self, plans: &'a Plans) -> &'a Plan {
+        plans.low.get_or_init(|| self.draw_plan((plans.height_m, plans.top_m), |_| ()))
     }
 
     /// The plan for centres between two heights.
