@@ -37,6 +37,8 @@ mod report;
 
 mod learn;
 
+mod soak;
+
 mod completions;
 
 mod man;
@@ -91,6 +93,7 @@ enum Command {
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
+    Soak(soak::SoakArgs),
     Completions(completions::CompletionsArgs),
     Man(man::ManArgs),
 }
@@ -152,6 +155,7 @@ pub fn run() -> ExitCode {
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
+        Command::Soak(args) => soak::run(&args, &mut out),
         Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
         Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };

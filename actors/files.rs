@@ -143,7 +143,8 @@ impl LineWriter {
         Ok(LineWriter { file, draft, path })
     }
 
-    fn draft_of(path: &Path) -> PathBuf {
+    /// The name of a file until it is finished.
+    pub fn draft_of(path: &Path) -> PathBuf {
         let mut draft = path.to_path_buf().into_os_string();
         draft.push(".part");
         PathBuf::from(draft)
@@ -250,9 +251,30 @@ pub fn processor_name() -> String {
 /// The most memory that a process has had so far [KiB], from its status file under /proc; none if
 /// it has ended or the system has no such file.
 pub fn peak_memory_kib(status: &str) -> Option<u64> {
+    memory_kib(status, "VmHWM")
+}
+
+/// The memory that a process has now [KiB].
+pub fn resident_memory_kib(status: &str) -> Option<u64> {
+    memory_kib(status, "VmRSS")
+}
+
+fn memory_kib(status: &str, key: &str) -> Option<u64> {
     let text = fs::read_to_string(status).ok()?;
-    let line = text.lines().find(|line| line.starts_with("VmHWM"))?;
+    let line = text.lines().find(|line| line.starts_with(key))?;
     line.split_whitespace().nth(1)?.parse().ok()
+}
+
+/// Removes a folder in which nothing is.
+pub fn remove_if_empty(path: &Path) {
+    // One that is not there, or that holds something, stays as it is.
+    let _ = fs::remove_dir(path);
+}
+
+/// Removes a file, if it is there.
+pub fn remove(path: &Path) {
+    // One that is not there is what is wanted.
+    let _ = fs::remove_file(path);
 }
 
 /// The names of what is in a folder, in order; none if it cannot be read.

@@ -42,11 +42,15 @@ pub mod conductor;
 
 pub mod pacer;
 
+pub mod crew;
+
 pub mod runtime;
 
 pub mod stopwatch;
 
 pub mod game;
+
+pub mod soak;
 
 #[cfg(feature = "renderer")]
 pub mod renderer;

@@ -8,6 +8,8 @@ mod desk;
 
 mod felt;
 
+mod game_thread;
+
 mod heard;
 
 mod hud;

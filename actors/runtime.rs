@@ -7,6 +7,7 @@
 
 use crate::ai::{Ai, ThinkAhead};
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
+use crate::crew::{Crew, MAILBOX};
 use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
 use crate::input::{Hand, Input, StandIn, frame_door};
@@ -29,10 +30,6 @@ use kameo::mailbox;
 use kameo::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// How many messages an actor of the tick can have waiting: it is asked once a tick and answers
-/// before the next, so two are one more than ever wait. When it is full the asker waits.
-const MAILBOX: usize = 2;
 
 /// How a cast is run.
 pub struct Setup {
@@ -124,45 +121,6 @@ impl Setup {
     }
 }
 
-/// Spawns the actors of the tick, and tells of each whoever supervises them.
-#[derive(Clone, Default)]
-pub struct Crew(pub Option<flume::Sender<Member>>);
-
-/// One of the crew.
-pub struct Member {
-    /// Its name.
-    pub name: &'static str,
-    kill: Box<dyn Fn() + Send>,
-}
-
-impl Member {
-    /// Kills it, if it lives.
-    pub fn kill(&self) {
-        (self.kill)();
-    }
-}
-
-impl Crew {
-    fn join<A: Actor<Args = A>>(&self, name: &'static str, actor: A) -> ActorRef<A> {
-        let actor = A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX));
-        self.tell(name, &actor);
-        actor
-    }
-
-    fn tell<A: Actor>(&self, name: &'static str, actor: &ActorRef<A>) {
-        if let Some(told) = &self.0 {
-            let actor = actor.downgrade();
-            let kill = Box::new(move || {
-                if let Some(actor) = actor.upgrade() {
-                    actor.kill();
-                }
-            });
-            // Whoever has left need not know.
-            let _ = told.send(Member { name, kill });
-        }
-    }
-}
-
 /// Runs a game to its end; returns when all its actors have stopped.
 ///
 /// # Errors
@@ -232,16 +190,6 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let (keeper, felt_world) = felt.unzip();
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
 
-    let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
-    let physics_ref = physics.actor_ref().clone();
-    crew.tell("physics", &physics_ref);
-    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
-    if setup.physics_thread {
-        physics.spawn_in_thread(body);
-    } else {
-        physics.spawn(body);
-    }
-
     let recording = match setup.record {
         None => None,
         Some((path, header)) => {
@@ -254,6 +202,15 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
     let events = crew.join("event manager", events);
+    let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
+    let physics_ref = physics.actor_ref().clone();
+    crew.tell("physics", &physics_ref);
+    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
+    if setup.physics_thread {
+        physics.spawn_in_thread(body);
+    } else {
+        physics.spawn(body);
+    }
     let below = Below {
         physics: physics_ref.clone(),
         events: events.clone(),

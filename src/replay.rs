@@ -147,6 +147,15 @@ pub enum Line {
 }
 
 impl Line {
+    /// The tick that it belongs to.
+    pub fn tick(&self) -> Tick {
+        match self {
+            Line::Recording(_) => Tick(0),
+            Line::Frame { tick, .. } | Line::End { tick, .. } => *tick,
+            Line::Hash(hash) => hash.tick,
+        }
+    }
+
     /// The line as it is written, without the line break.
     pub fn to_json(&self) -> String {
         // Plain data with string keys: serialising it cannot fail.

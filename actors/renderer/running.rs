@@ -1,6 +1,7 @@
 //! One game beside its window: its thread, and the window's ends of what joins them.
 
 use super::felt::{FeltScreen, FeltSetup};
+use super::game_thread::GameThread;
 use super::heard::{HeardScreen, HeardSetup};
 use super::outbox::Outbox;
 use super::stage::Stage;
@@ -15,10 +16,8 @@ use hapticbillard::renderer::{
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
-use std::thread::{self, JoinHandle};
 use three_d::Context;
 
 /// Reports that may wait for the hand, which empties the channel every tick; see [`Outbox`].
@@ -92,8 +91,7 @@ pub struct Running {
     radii: Radii,
     table: Arc<Table>,
     felt: Option<FeltScreen>,
-    /// None when it is over.
-    thread: Option<JoinHandle<thread::Result<Result<Finished, RunError>>>>,
+    thread: GameThread,
 }
 
 impl Running {
@@ -115,14 +113,7 @@ impl Running {
         let dropped = Arc::new(AtomicU64::new(0));
         let sink = Sink { topics: Scoreboard::topics(), mail: mail_in, dropped };
         let ports = Ports { raw, view: view_in, world: world_in, sink };
-        let thread = thread::Builder::new()
-            .name("game".into())
-            .spawn(move || {
-                let finished = panic::catch_unwind(AssertUnwindSafe(|| play(ports)));
-                ended();
-                finished
-            })
-            .map_err(|error| RunError::Start(format!("no thread for the game: {error}")))?;
+        let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
             stage: Stage::new(context, &setup.table),
             outbox: Outbox::new(raw_in),
@@ -140,7 +131,7 @@ impl Running {
             radii: setup.radii,
             table: setup.table,
             felt: setup.felt.map(FeltScreen::new),
-            thread: Some(thread),
+            thread,
         })
     }
 
@@ -153,10 +144,7 @@ impl Running {
     /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
     /// before.
     pub fn join(&mut self) -> Option<Result<Finished, RunError>> {
-        match self.thread.take()?.join() {
-            Ok(Ok(finished)) => Some(finished),
-            Ok(Err(payload)) | Err(payload) => panic::resume_unwind(payload),
-        }
+        self.thread.join()
     }
 
     /// What the player sees and does.

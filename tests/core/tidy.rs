@@ -32,7 +32,7 @@ const LAYERS: [&[&str]; 17] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 28] = [
+const ACTORS: [(&str, Option<&str>); 30] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -49,6 +49,7 @@ const ACTORS: [(&str, Option<&str>); 28] = [
     ("build", None),
     ("cli", None),
     ("cpu_time", None),
+    ("crew", None),
     ("stopwatch", None),
     ("error", None),
     ("event_log", None),
@@ -60,6 +61,7 @@ const ACTORS: [(&str, Option<&str>); 28] = [
     ("main", None),
     ("pacer", None),
     ("runtime", None),
+    ("soak", None),
     ("slots", None),
 ];
 

@@ -31,10 +31,10 @@ mod haply;
 mod haptic;
 /// Somebody who hears events and keeps them.
 mod hearing;
-/// The licences of what is linked.
-mod licences;
 /// What `--json` prints, and what options change.
 mod json;
+/// The licences of what is linked.
+mod licences;
 /// Completions and manual pages.
 mod manual;
 /// Who stands in for whom.
@@ -60,6 +60,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// Disturbed games, held against undisturbed ones.
+mod soak;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
 /// Sound files: a player's recordings, and every class written.
