@@ -24,7 +24,7 @@ def cargo(*arguments: str) -> str:
 
 def linked() -> set[tuple[str, str]]:
     """Name and version of each package that is linked."""
-    tree = cargo("tree", "--locked", "--package", "hapticbillard-actors", "--all-features", "--edges",
+    tree = cargo("tree", "--locked", "--package", "hapticbillard-actors", "--edges",
                  "normal,no-proc-macro", "--prefix", "none", "--format", "{p}")
     named = (line.split(" ") for line in tree.splitlines())
     return {(name, version.removeprefix("v")) for name, version, *_ in named}

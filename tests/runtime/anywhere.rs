@@ -49,8 +49,11 @@ fn a_game_without_a_display_is_played_and_recorded_in_the_home() {
     assert!(output.status.success(), "{output:?}");
     assert!(text(&output.stdout).contains("wins"), "{output:?}");
     let files = found(&home);
-    let [recording] = &files[..] else { panic!("{files:?}") };
-    assert!(recording.starts_with(home.join(".local/share/hapticbillard")), "{recording:?}");
+    let data = home.join(".local/share/hapticbillard");
+    assert!(files.iter().all(|file| file.starts_with(&data)), "{files:?}");
+    let recordings: Vec<_> =
+        files.iter().filter(|file| file.starts_with(data.join("recordings"))).collect();
+    let [recording] = recordings[..] else { panic!("{files:?}") };
     let replayed = run(&home, &["replay", recording.to_str().unwrap(), "--verify"]);
     assert!(replayed.status.success(), "{replayed:?}");
 }

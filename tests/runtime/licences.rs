@@ -28,7 +28,7 @@ const HEAD: &str = "\
 # Licences
 
 HapticBillard is under MIT or Apache-2.0, as you like. These libraries are linked into the program
-with all its features on Linux, by the licence that each of them states; their versions stand in
+with its default features on Linux, by the licence that each of them states; their versions stand in
 `Cargo.lock`. The texts of all these licences, with the names of those who hold the rights, are in
 the Debian package beside this file. Made by `make licences`.
 ";
@@ -52,7 +52,7 @@ fn is_allowed(licence: &str) -> bool {
 fn libraries() -> BTreeMap<String, BTreeSet<String>> {
     let output = Command::new(env!("CARGO"))
         .args(["tree", "--offline", "--locked", "--package", "hapticbillard-actors"])
-        .args(["--all-features", "--edges", "normal,no-proc-macro", "--prefix", "none"])
+        .args(["--edges", "normal,no-proc-macro", "--prefix", "none"])
         .args(["--target", "x86_64-unknown-linux-gnu", "--format", "{p}|{l}"])
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap())
         .output()

@@ -33,6 +33,8 @@ mod haptic;
 mod hearing;
 /// What `--json` prints, and what options change.
 mod json;
+/// The chapter of what is left out.
+mod left_out;
 /// The licences of what is linked.
 mod licences;
 /// Completions and manual pages.

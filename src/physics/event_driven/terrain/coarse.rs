@@ -127,6 +127,33 @@ impl Terrain {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ball::POOL_RADIUS_M;
+    use crate::table::Table;
+
+    /// What is listed at a point: patches, edges, corners.
+    fn listed(terrain: &Terrain, point: DVec3) -> Option<(Vec<u32>, Vec<u32>, Vec<u32>)> {
+        let lists = terrain.in_block(&terrain.block_at(terrain.place_of(point), false))?;
+        let patches = lists.groups.iter().map(|group| group.patch).collect();
+        Some((patches, lists.edges.to_vec(), lists.corners.to_vec()))
+    }
+
+    #[test]
+    fn cells_are_cut_where_a_ball_comes_and_list_the_same_whoever_comes_first() {
+        let table = Table::preset("pool-9ft").unwrap();
+        let terrain = Terrain::new(&table, POOL_RADIUS_M);
+        let cut = |terrain: &Terrain| terrain.cuts.iter().filter(|cut| cut.get().is_some()).count();
+        assert_eq!(cut(&terrain), 0);
+        // Along a corner pocket's mouth, where most is in reach.
+        let mouth = table.pockets[0].mouth.map(|tip| tip.extend(POOL_RADIUS_M));
+        let points: Vec<DVec3> =
+            (0..=40).map(|i| mouth[0].lerp(mouth[1], f64::from(i) / 40.0)).collect();
+        let there: Vec<_> = points.iter().map(|point| listed(&terrain, *point)).collect();
+        assert!(there.iter().flatten().any(|(patches, ..)| patches.len() > 3), "{there:?}");
+        assert!((1..20).contains(&cut(&terrain)), "{} cells are cut", cut(&terrain));
+        let other = Terrain::new(&table, POOL_RADIUS_M);
+        let back: Vec<_> = points.iter().rev().map(|point| listed(&other, *point)).collect();
+        assert!(there.iter().eq(back.iter().rev()), "{there:?} {back:?}");
+    }
 
     #[test]
     fn rows_hold_their_numbers_in_the_order_of_the_pairs() {
