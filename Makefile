@@ -47,8 +47,9 @@ deb: setup
 	  target/release/hapticbillard completions $$shell > $(DEB)/hapticbillard.$$shell || exit 1; \
 	done
 	python3 actors/debian/texts.py $(DEB)/third-party
-	gzip -9n $(DEB)/third-party
-	$(CARGO) deb --locked --package hapticbillard-actors --no-build
+	cp actors/CHANGELOG.md $(DEB)/changelog
+	gzip -9n $(DEB)/changelog $(DEB)/third-party $(DEB)/man/*
+	$(CARGO) deb --locked --package hapticbillard-actors --no-build --strip
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package

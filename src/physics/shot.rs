@@ -25,15 +25,14 @@ const FOLLOW_THROUGH_S: Seconds = 0.02;
 ///
 /// ```
 /// use glam::DVec3;
-/// use hapticbillard::ball::{Ball, BallState};
+/// use hapticbillard::ball::{Ball, BallState, POOL_RADIUS_M};
 /// use hapticbillard::ids::BallId;
 /// use hapticbillard::physics::{PhysicsSettings, Simulation, Strike};
 /// use hapticbillard::table::Table;
 ///
 /// let one = BallId(1);
 /// let balls = [(BallId::CUE, 0.0), (one, 0.5)].map(|(id, x)| {
-///     let ball = Ball::pool(id);
-///     (ball, BallState::at_rest(id, DVec3::new(x, 0.0, ball.radius_m)))
+///     (Ball::pool(id), BallState::at_rest(id, DVec3::new(x, 0.0, POOL_RADIUS_M)))
 /// });
 /// let start =
 ///     Simulation::from_parts(&Table::plane(), balls.to_vec(), &PhysicsSettings::default())?;
