@@ -41,7 +41,11 @@ mod soak;
 
 mod doctor;
 
-use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+mod completions;
+
+mod man;
+
+use clap::{ArgAction, CommandFactory, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -93,6 +97,8 @@ enum Command {
     Learn(learn::LearnArgs),
     Soak(soak::SoakArgs),
     Doctor(doctor::DoctorArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -154,6 +160,8 @@ pub fn run() -> ExitCode {
         Command::Learn(args) => learn::run(&args, &mut out),
         Command::Soak(args) => soak::run(&args, &mut out),
         Command::Doctor(args) => doctor::run(&args, &mut out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
+        Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

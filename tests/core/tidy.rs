@@ -77,10 +77,11 @@ fn root() -> &'static Path {
 /// Every text file of the repository that somebody wrote, with its path from the root.
 fn files() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = ["src", "actors", "assets", "config", "tests", ".ci"]
-        .iter()
-        .map(|folder| root().join(folder))
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        ["src", "actors", "assets", "config", "tests", ".ci", ".github"]
+            .iter()
+            .map(|folder| root().join(folder))
+            .collect();
     let mut paths: Vec<PathBuf> = ["Cargo.toml", "README.md", "Makefile", "clippy.toml"]
         .iter()
         .map(|file| root().join(file))

@@ -67,6 +67,8 @@ fn every_command_teaches_with_an_example() {
         "learn",
         "soak",
         "doctor",
+        "completions",
+        "man",
     ];
     for command in commands {
         let output = program(&[command, "--help"]);

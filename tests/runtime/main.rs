@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// The program away from its source.
+mod anywhere;
 /// Many shots at once.
 mod batch;
 /// The program as a shell sees it: what it prints where, and its exit codes.
@@ -33,6 +35,12 @@ mod haptic;
 mod hearing;
 /// What `--json` prints, and what options change.
 mod json;
+/// The chapter of what is left out.
+mod left_out;
+/// The licences of what is linked.
+mod licences;
+/// Completions and manual pages.
+mod manual;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
