@@ -14,10 +14,17 @@ use std::future::ready;
 use std::pin::Pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Waker};
+use tracing::Span;
 
-/// The mail of one tick.
+/// The mail of one tick, and in which shot it was sent, for the log.
 #[derive(Debug, Clone)]
-pub struct Mail(pub Delivered);
+pub struct Mail(pub Delivered, pub Span);
+
+impl From<Delivered> for Mail {
+    fn from(delivered: Delivered) -> Self {
+        Mail(delivered, Span::none())
+    }
+}
 
 /// The answer to the mail: what the participant publishes, and the hash of its state.
 #[derive(Debug, Clone, Reply)]
@@ -105,7 +112,7 @@ fn put<A: Message<Mail, Reply = Answer>>(actor: &ActorRef<A>, mail: Mail) -> Ans
 
 /// Hands `mail` to a core.
 pub fn collect(core: &mut (impl Participant + ?Sized), mail: &Mail) -> Answer {
-    let outcome = core.collect(&mail.0);
+    let outcome = mail.1.in_scope(|| core.collect(&mail.0));
     Answer { outcome, digest: digest(core) }
 }
 

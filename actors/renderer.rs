@@ -20,6 +20,8 @@ mod materials;
 
 mod menu;
 
+mod meters;
+
 mod offscreen;
 
 mod outbox;

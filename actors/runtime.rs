@@ -12,6 +12,8 @@ use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
 use crate::input::{Hand, Input, StandIn, frame_door};
 use crate::kept::{Kept, Saved, Shared};
+use crate::meters::{Meters, Watched};
+use crate::news::News;
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
 use crate::participant::{self, Answer, Mail, Seat, door, kept_door};
@@ -21,7 +23,6 @@ use crate::rules::Rules;
 use crate::sound;
 use hapticbillard::ai::Player;
 use hapticbillard::cast::Cast;
-use hapticbillard::events::Health;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -66,6 +67,8 @@ pub struct Setup {
     pub stop: StopFlag,
     /// Who wants to know of every actor.
     pub crew: Crew,
+    /// Where is measured, while somebody looks.
+    pub meters: Option<Arc<Meters>>,
 }
 
 /// Who acts from outside.
@@ -94,7 +97,7 @@ pub struct Felt {
     pub world: haptic::WorldPort,
 }
 
-/// News from the controls of servo and sound that wait at most.
+/// News for the player that wait at most; see [`News`].
 const NEWS: usize = 64;
 
 impl Setup {
@@ -117,6 +120,7 @@ impl Setup {
             workers: 1,
             stop: StopFlag::default(),
             crew: Crew::default(),
+            meters: None,
         }
     }
 }
@@ -141,8 +145,13 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let Cast { simulation, referee, players, .. } = cast;
     let table = simulation.snapshot(0.0);
 
-    let crew = setup.crew;
+    let meters = setup.meters;
+    let crew = Watched { crew: setup.crew, meters: meters.clone() };
     let (tell, news) = flume::bounded(NEWS);
+    let tell = News::from(tell);
+    if let Some(meters) = &meters {
+        meters.watch_news(&tell);
+    }
 
     // Participants, in the order in which they are registered.
     let mut seats = Vec::new();
@@ -198,6 +207,9 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
         }
     };
 
+    if let Some(meters) = &meters {
+        sinks.iter().for_each(|sink| meters.watch_sink(sink));
+    }
     let events =
         EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
     let clock = Clock::new(setup.pace, setup.limit, events.before_first());
@@ -222,7 +234,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     };
     let conductor = crew.join("conductor", Conductor::new(clock, below));
 
-    let finished = pacer::run(&conductor, setup.tempo, &setup.stop).await;
+    let finished = pacer::run(&conductor, setup.tempo, &setup.stop, meters.as_deref()).await;
     // A conductor that is gone took its recording with it; what is on disk stays there.
     let lost = conductor.ask(EndRecording).await.ok().and_then(|recorded| recorded.0);
 
@@ -242,7 +254,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             Err(RunError::Recording(lost.to_string()))
         }
         (finished, Some(lost)) => {
-            log::warn!("{lost}");
+            tracing::warn!("{lost}");
             finished
         }
         (finished, None) => finished,
@@ -266,12 +278,7 @@ where
 }
 
 /// The same for a computer player, whose actor is replaced when it dies.
-fn keep_player(
-    mut core: Player,
-    crew: &Crew,
-    news: &flume::Sender<Health>,
-    table: &Snapshot,
-) -> Seat {
+fn keep_player(mut core: Player, crew: &Watched, news: &News, table: &Snapshot) -> Seat {
     let (source, topics) = (core.source(), core.topics());
     let first = participant::start(&mut core, table);
     let (core, crew) = (Shared::new(Saved::new(core)), crew.clone());

@@ -16,7 +16,7 @@ use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// How many events may wait at one time. A break of 1 000 balls makes some thousand in a tick.
+/// How many events may wait at one time. A break of a thousand balls makes 351 in its busiest tick.
 pub const LIMIT: usize = 1 << 16;
 
 /// An event on its way to the event manager.

@@ -102,7 +102,7 @@ impl Keeper {
             Ok(()) if self.failures == 0 => return None,
             Ok(()) => {
                 self.failures = 0;
-                log::warn!("the game is recorded again, and nothing is missing");
+                tracing::warn!("the game is recorded again, and nothing is missing");
                 return Some(Health::ActorRestarted { actor: RECORDER.into() });
             }
             Err(failure) => failure,
@@ -114,7 +114,7 @@ impl Keeper {
         self.failures = self.failures.saturating_add(1);
         // Told once; that it fails again and again is no news.
         if self.failures == 1 {
-            log::warn!("the game is not recorded for now: {}", self.reason);
+            tracing::warn!("the game is not recorded for now: {}", self.reason);
             return Some(self.failed());
         }
         self.give_up_when_full()
@@ -148,7 +148,7 @@ impl Keeper {
         }
         self.waiting = VecDeque::new();
         self.gave_up = true;
-        log::warn!("the recording ends at tick {}: {}", self.reached.0, self.reason);
+        tracing::warn!("the recording ends at tick {}: {}", self.reached.0, self.reason);
         Some(self.failed())
     }
 

@@ -55,7 +55,7 @@ impl Participant for Saboteur {
         while let Some(planned) = self.planned.pop_front_if(|p| p.batch <= self.batches) {
             let victims = self.roster.strike(planned.victim.name(), planned.fault);
             let struck = Struck { tick: delivered.tick, planned, victims };
-            log::debug!("{:?} to {}", FaultKind::of(planned.fault), planned.victim.name());
+            tracing::debug!("{:?} to {}", FaultKind::of(planned.fault), planned.victim.name());
             self.struck.lock().unwrap_or_else(PoisonError::into_inner).push(struck);
         }
         self.batches += 1;

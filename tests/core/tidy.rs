@@ -32,7 +32,7 @@ const LAYERS: [&[&str]; 17] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 30] = [
+const ACTORS: [(&str, Option<&str>); 34] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -58,6 +58,10 @@ const ACTORS: [(&str, Option<&str>); 30] = [
     ("histogram", None),
     ("kept", None),
     ("lib", None),
+    ("logging", None),
+    ("meters", None),
+    ("news", None),
+    ("shot", None),
     ("main", None),
     ("pacer", None),
     ("runtime", None),

@@ -192,8 +192,7 @@ fn whoever_only_listens_can_go_and_the_game_is_the_same() {
     // A window that is gone, and one that takes nothing.
     let (mail, gone) = flume::bounded(4);
     let (lagging, _kept) = flume::bounded(4);
-    let sinks =
-        [mail, lagging].map(|mail| Sink { topics: Topics::ALL, mail, dropped: Arc::default() });
+    let sinks = [mail, lagging].map(|mail| Sink::new("test", Topics::ALL, mail));
     let dropped = sinks[1].dropped.clone();
     drop(gone);
     let sinks = Vec::from(sinks);
@@ -212,7 +211,7 @@ fn what_is_refused_stands_in_the_players_window_with_what_would_help() {
     let setup = Setup {
         pace: Pace::EveryTick,
         tempo: Tempo::RealTime(1.0),
-        sinks: vec![Sink { topics: Scoreboard::topics(), mail, dropped: Arc::default() }],
+        sinks: vec![Sink::new("test", Scoreboard::topics(), mail)],
         haptic: Some(Felt { seat, world }),
         ..Setup::headless(Tick(300))
     };

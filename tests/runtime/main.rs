@@ -41,6 +41,10 @@ mod left_out;
 mod licences;
 /// Completions and manual pages.
 mod manual;
+/// Full queues and slow listeners.
+mod load;
+/// What the program says about itself, and where.
+mod logging;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
@@ -80,6 +84,9 @@ mod supervision;
 /// The progress bar.
 #[cfg(unix)]
 mod terminal;
+/// A break of a thousand balls.
+#[path = "../thousand.rs"]
+mod thousand;
 /// Tournaments and matches.
 mod tournament;
 /// A whole game in a window.

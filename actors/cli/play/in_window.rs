@@ -218,7 +218,7 @@ impl Host for House<'_> {
             self.out.flush()?;
         }
         if let Some(Recorded { readings, lost }) = device? {
-            log::info!("recorded {readings} readings of the haptic device, {lost} lost");
+            tracing::info!("recorded {readings} readings of the haptic device, {lost} lost");
         }
         telemetry.map(|_| ())
     }
@@ -297,7 +297,7 @@ fn prepared(
     let (players, is_led) = (stage.scene.human_players(), stage.scene.is_led());
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let play = move |ports: Ports| {
-        let Ports { raw, view, world, sink } = ports;
+        let Ports { raw, view, world, sink, meters } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
         let (haptic, stylus) = match started {
@@ -344,6 +344,7 @@ fn prepared(
             physics_thread,
             workers: 2,
             stop,
+            meters: Some(meters),
             ..Setup::headless(LIMIT)
         };
         runtime::run(cast, setup)
@@ -365,7 +366,7 @@ fn heard(
             Ok((Some(Heard { seat, world }), Some(HeardSetup { listener, knobs })))
         }
         Err(error) => {
-            log::warn!("{error}; the game is played without sound");
+            tracing::warn!("{error}; the game is played without sound");
             Ok((None, None))
         }
     }
