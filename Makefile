@@ -5,8 +5,10 @@
 PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcursor1 libxi6 \
 	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev
 CARGO := cargo
+# How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
+MINUTES ?= 10
 
-.PHONY: play test report window peers setup early featureless lints everything documents package
+.PHONY: play test report window peers fuzz setup early featureless lints everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -24,6 +26,11 @@ window: setup
 # Other programs on the report's cases, and the report with them: see tests/peers/README.md.
 peers:
 	python3 tests/peers/run.py
+
+# Looks for bytes that break what reads them, so many minutes each target: see
+# tests/fuzz/coverage/README.md.
+fuzz:
+	MINUTES=$(MINUTES) CARGO=$(CARGO) tests/fuzz/coverage/run.sh $(TARGETS)
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package
