@@ -5,9 +5,11 @@
 PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcursor1 libxi6 \
 	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev
 CARGO := cargo
+# How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
+MINUTES ?= 10
 
-.PHONY: play test report window peers builds licences deb setup early featureless lints everything \
-	documents package
+.PHONY: play test report window hour peers fuzz builds licences deb setup early featureless lints \
+	everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -21,6 +23,11 @@ report:
 window: setup
 	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game:: \
 	  -- --nocapture
+
+# Games in a window for MINUTES, with sound to nobody and a simulated hand: nothing may grow.
+hour: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	tests/soak/window.sh target/release/hapticbillard $(or $(filter-out 10,$(MINUTES)),60) target/hour
 
 # Other programs on the report's cases, and the report with them: see tests/peers/README.md.
 peers:
@@ -50,6 +57,11 @@ deb: setup
 	cp actors/CHANGELOG.md $(DEB)/changelog
 	gzip -9n $(DEB)/changelog $(DEB)/third-party $(DEB)/man/*
 	$(CARGO) deb --locked --package hapticbillard-actors --no-build --strip
+
+# Looks for bytes that break what reads them, so many minutes each target: see
+# tests/fuzz/coverage/README.md.
+fuzz:
+	MINUTES=$(MINUTES) CARGO=$(CARGO) tests/fuzz/coverage/run.sh $(TARGETS)
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package

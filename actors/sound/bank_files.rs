@@ -108,7 +108,20 @@ pub fn read_folder(folder: &Path, rate_hz: u32) -> Result<(Bank, Vec<Refused>), 
 fn add(bank: &mut Bank, name: &str, path: &Path, rate_hz: u32) -> Result<(), Reason> {
     let name: ClipName = name.parse()?;
     let bytes = read_bytes(path, FILE_BYTES_MAX).map_err(Box::new)?;
-    let (samples, from_hz) = decode(&bytes)?;
+    add_bytes(bank, name, &bytes, rate_hz)
+}
+
+/// Adds what a WAV file holds to the bank of a stream of `rate_hz`.
+///
+/// # Errors
+/// [`Reason`] if it cannot stand in for a sound.
+pub fn add_bytes(
+    bank: &mut Bank,
+    name: ClipName,
+    bytes: &[u8],
+    rate_hz: u32,
+) -> Result<(), Reason> {
+    let (samples, from_hz) = decode(bytes)?;
     let samples = resample(samples, from_hz, rate_hz)?;
     Ok(bank.insert(name.class, name.speed_m_s, &samples, rate_hz as f32)?)
 }

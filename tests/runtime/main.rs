@@ -7,6 +7,11 @@
 mod anywhere;
 /// Many shots at once.
 mod batch;
+/// Bytes from outside, as the fuzz tests of the core take them.
+#[cfg(feature = "sound")]
+#[path = "../fuzz/bytes.rs"]
+#[allow(dead_code)]
+mod bytes;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
 /// Forces that end when something fails while a wall is felt.
@@ -75,6 +80,9 @@ mod sound;
 /// Sound files: a player's recordings, and every class written.
 #[cfg(feature = "sound")]
 mod sound_files;
+/// What libFuzzer found among sound files.
+#[cfg(feature = "sound")]
+mod sound_corpus;
 /// The line to a device that comes and goes.
 mod sound_line;
 /// The stub of the vendor's HD library.
