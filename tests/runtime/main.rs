@@ -44,12 +44,12 @@ mod json;
 mod left_out;
 /// The licences of what is linked.
 mod licences;
-/// Completions and manual pages.
-mod manual;
 /// Full queues and slow listeners.
 mod load;
 /// What the program says about itself, and where.
 mod logging;
+/// Completions and manual pages.
+mod manual;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
@@ -77,12 +77,12 @@ mod servo;
 mod soak;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
-/// Sound files: a player's recordings, and every class written.
-#[cfg(feature = "sound")]
-mod sound_files;
 /// What libFuzzer found among sound files.
 #[cfg(feature = "sound")]
 mod sound_corpus;
+/// Sound files: a player's recordings, and every class written.
+#[cfg(feature = "sound")]
+mod sound_files;
 /// The line to a device that comes and goes.
 mod sound_line;
 /// The stub of the vendor's HD library.
