@@ -1,8 +1,8 @@
 //! What a command line may change about a scene; a recording keeps it beside the scene's text.
 
 use super::{Entrant, RackKind, Scene};
-use crate::one_line::one_line;
 use crate::ids::{GameKind, PlayerId};
+use crate::one_line::one_line;
 use serde::{Deserialize, Serialize};
 
 /// The longest name of a player that a recording gives [characters].

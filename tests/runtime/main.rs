@@ -61,12 +61,12 @@ mod same_bits;
 mod servo;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
-/// Sound files: a player's recordings, and every class written.
-#[cfg(feature = "sound")]
-mod sound_files;
 /// What libFuzzer found among sound files.
 #[cfg(feature = "sound")]
 mod sound_corpus;
+/// Sound files: a player's recordings, and every class written.
+#[cfg(feature = "sound")]
+mod sound_files;
 /// The line to a device that comes and goes.
 mod sound_line;
 /// The stub of the vendor's HD library.

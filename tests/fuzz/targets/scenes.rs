@@ -31,9 +31,8 @@ fn set_up(scene: &Scene) {
         check_line(&fix);
     }
     let ground = Scene { table: None, balls: None, ..scene.clone() };
-    let balls = ground
-        .build_table(&mut |_| Ok(COURSE.into()))
-        .and_then(|table| ground.build_balls(&table));
+    let balls =
+        ground.build_table(&mut |_| Ok(COURSE.into())).and_then(|table| ground.build_balls(&table));
     match balls {
         Ok(balls) => assert_eq!(balls.len(), scene.ball.len()),
         Err(error) => check_line(&error.to_string()),

@@ -34,7 +34,9 @@ fn begin(scene: &Scene, mut simulation: Simulation) {
     match simulation.advance(end_s, Default::default(), &mut Vec::new()) {
         Ok(_) => {
             let balls = simulation.snapshot(end_s).balls;
-            assert!(balls.iter().all(|ball| ball.position.is_finite() && ball.velocity.is_finite()));
+            assert!(
+                balls.iter().all(|ball| ball.position.is_finite() && ball.velocity.is_finite())
+            );
         }
         Err(error) => check_line(&error.to_string()),
     }
