@@ -8,7 +8,8 @@ CARGO := cargo
 # How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
 MINUTES ?= 10
 
-.PHONY: play test report window peers fuzz setup early featureless lints everything documents package
+.PHONY: play test report window hour peers fuzz builds licences deb setup early featureless lints \
+	everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -16,16 +17,46 @@ play: setup
 # Measures everything of tests/report anew: about ten minutes of a quiet machine.
 report:
 	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
-	  report --out tests/report
+	  report --builds tests/report/builds.json --out tests/report
 
 # A whole game with real mouse and key events, in real time on a virtual display.
 window: setup
 	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game:: \
 	  -- --nocapture
 
+# Games in a window for MINUTES, with sound to nobody and a simulated hand: nothing may grow.
+hour: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	tests/soak/window.sh target/release/hapticbillard $(or $(filter-out 10,$(MINUTES)),60) target/hour
+
 # Other programs on the report's cases, and the report with them: see tests/peers/README.md.
 peers:
 	python3 tests/peers/run.py
+
+# What each feature adds to the program, for the report: see tests/builds/run.py.
+builds:
+	python3 tests/builds/run.py
+	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
+	  report --left-out --builds tests/report/builds.json --out tests/report
+
+# Lists the licences of all libraries anew.
+licences:
+	UPDATE_LICENCES=1 $(CARGO) test --quiet --locked --package hapticbillard-actors --test runtime \
+	  licences::
+
+# The Debian package, into target/debian; needs `cargo install --locked cargo-deb`.
+DEB := target/release/deb
+deb: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	rm -rf $(DEB)
+	target/release/hapticbillard man --out $(DEB)/man
+	for shell in bash zsh fish; do \
+	  target/release/hapticbillard completions $$shell > $(DEB)/hapticbillard.$$shell || exit 1; \
+	done
+	python3 actors/debian/texts.py $(DEB)/third-party
+	cp actors/CHANGELOG.md $(DEB)/changelog
+	gzip -9n $(DEB)/changelog $(DEB)/third-party $(DEB)/man/*
+	$(CARGO) deb --locked --package hapticbillard-actors --no-build --strip
 
 # Looks for bytes that break what reads them, so many minutes each target: see
 # tests/fuzz/coverage/README.md.
@@ -67,8 +98,9 @@ lints:
 	$(CARGO) clippy --quiet --locked --workspace --all-targets --no-default-features -- -D warnings
 	$(CARGO) clippy --quiet --locked --workspace --all-targets --all-features -- -D warnings
 
+# The default features are all but those for developers, which only the lints compile.
 everything:
-	$(CARGO) test --quiet --locked --workspace --all-features
+	$(CARGO) test --quiet --locked --workspace
 
 documents:
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --quiet --locked --workspace --no-deps

@@ -16,6 +16,10 @@ impl Message<Mail> for Ai {
     type Reply = Answer;
 
     async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        self.0.borrow().work(|player| collect(player, &mail))
+        let answer = self.0.borrow().work(|player| collect(player, &mail));
+        for publication in &answer.outcome.publish {
+            tracing::debug!(parent: &mail.1, "{:?}", publication.event);
+        }
+        answer
     }
 }

@@ -37,10 +37,20 @@ mod report;
 
 mod learn;
 
-use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+mod soak;
+
+mod doctor;
+
+mod completions;
+
+mod man;
+
+use clap::{ArgAction, CommandFactory, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
+use hapticbillard_actors::logging::{self, LogFile};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 const ABOUT: &str = "Billiards with real physics: a game, and a toolbox around the same core";
@@ -54,6 +64,11 @@ Examples:
 
 Every command has --help with an example. With --json a command prints JSON lines on stdout, the
 last of which is {\"summary\":{..}}.
+Log: warnings go to stderr; -v, -vv and -vvv say more. RUST_LOG chooses by module, and every actor
+is one: hapticbillard_actors::conductor, event_manager, physics, rules, ai, input, haptic, sound,
+recorder, renderer. RUST_LOG=warn,hapticbillard_actors::rules=debug tells all that the rules decide;
+hapticbillard_actors::shot=info in it names the shot on every line. `play` also writes a log a day
+into the folder logs/ in the user's data folder and keeps the last 7.
 Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
 
 #[derive(Parser)]
@@ -69,6 +84,10 @@ struct Cli {
     /// Says more on stderr; twice: even more. RUST_LOG chooses by module.
     #[arg(short, long, global = true, action = ArgAction::Count)]
     verbose: u8,
+
+    /// Writes the log into this file too, behind what is there.
+    #[arg(long, global = true, value_name = "FILE")]
+    log_file: Option<PathBuf>,
 }
 
 #[derive(Subcommand)]
@@ -87,6 +106,10 @@ enum Command {
     Sound(sound::SoundArgs),
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
+    Soak(soak::SoakArgs),
+    Doctor(doctor::DoctorArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -120,18 +143,16 @@ pub enum Status {
 /// Reads the command line and does what it says.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let level = match cli.verbose {
-        0 => "warn",
-        1 => "info",
-        2 => "debug",
-        _ => "trace",
+    let command = cli.command.unwrap_or(Command::Play(cli.play));
+    let file = match (cli.log_file, &command) {
+        (Some(path), _) => LogFile::At(path),
+        (None, Command::Play(_)) => LogFile::Daily,
+        (None, _) => LogFile::None,
     };
-    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(level))
-        .format_timestamp_millis()
-        .init();
+    let _logging = logging::start(cli.verbose, &file);
 
     let mut out = BufWriter::new(io::stdout().lock());
-    let result = match cli.command.unwrap_or(Command::Play(cli.play)) {
+    let result = match command {
         Command::Play(args) => play::run(&args, &mut out),
         Command::Simulate(args) => simulate::run(&args, &mut out),
         Command::Match(args) => match_::run(&args, &mut out),
@@ -146,6 +167,10 @@ pub fn run() -> ExitCode {
         Command::Sound(args) => sound::run(&args, &mut out),
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
+        Command::Soak(args) => soak::run(&args, &mut out),
+        Command::Doctor(args) => doctor::run(&args, &mut out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
+        Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

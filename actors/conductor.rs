@@ -19,6 +19,7 @@ use hapticbillard::tick::{Advanced, Clock, End, Finished, Frame, Inflow, Next};
 use hapticbillard::units::Tick;
 use kameo::prelude::*;
 use std::sync::Arc;
+use tracing::{Instrument, Span};
 
 /// Why a run stopped before its end.
 #[derive(Debug, thiserror::Error)]
@@ -94,6 +95,7 @@ pub struct Conductor {
     hurried: bool,
     last: Last,
     verified: u64,
+    shot: Span,
 }
 
 #[derive(Default)]
@@ -117,6 +119,7 @@ impl Conductor {
             hurried: false,
             last,
             verified: 0,
+            shot: Span::none(),
         }
     }
 }
@@ -145,7 +148,8 @@ impl Message<Step> for Conductor {
     type Reply = Stepped;
 
     async fn handle(&mut self, _: Step, _: &mut Context<Self, Stepped>) -> Stepped {
-        let progress = self.step().await;
+        let shot = self.shot.clone();
+        let progress = self.step().instrument(shot).await;
         Stepped(progress.map(|progress| (self.clock.now(), progress)))
     }
 }
@@ -204,6 +208,7 @@ impl Conductor {
                     return self.finish(End::Quit).await;
                 }
                 if inflow.paused {
+                    tracing::debug!("time stands still from tick {} on", tick.0);
                     self.clock.pause();
                 }
                 inflow.frame.insert_many(0, self.held.drain(..));
@@ -282,6 +287,7 @@ impl Conductor {
             self.record(Line::Hash(hash.clone())).await;
         }
         self.last.hash = Some(hash);
+        self.shot = delivery.shot;
         self.clock.sealed(delivery.sealed);
         Ok(())
     }
@@ -299,6 +305,7 @@ impl Conductor {
             recording.check_end(tick, end, self.verified)?;
         }
         self.record(Line::End { tick, reason: end }).await;
+        tracing::info!("the game ends at tick {}: {end:?}", tick.0);
         let hash = self.last.hash.clone();
         Ok(Progress::Finished(Finished { end, tick, hash, verified: self.verified }))
     }

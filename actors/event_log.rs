@@ -5,7 +5,7 @@ use hapticbillard::events::{Source, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
-use log::error;
+use tracing::error;
 
 /// Writes events into a file. When the disk refuses it says so once and the game goes on.
 pub struct EventLog(Option<LineWriter>);

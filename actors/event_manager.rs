@@ -8,6 +8,7 @@
 //! `tests/bench/bus/README.md` holds what this costs beside other ways to send the same events.
 
 use crate::participant::{Ask, Mail, Seat};
+use crate::shot;
 use hapticbillard::event_manager::{EventManager as Core, QueueFull};
 use hapticbillard::events::{Event, Fact, Health, Source, Topics};
 use hapticbillard::hash::Digest;
@@ -18,15 +19,25 @@ use kameo::prelude::*;
 use smallvec::SmallVec;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use tracing::{Instrument, Span};
 
 /// A listener outside the tick and outside the hash: window, sound.
 pub struct Sink {
+    /// What it is called.
+    pub name: &'static str,
     /// What it wants to be told.
     pub topics: Topics,
     /// Where its mail goes.
     pub mail: flume::Sender<Delivered>,
     /// How many batches it was too slow for.
     pub dropped: Arc<AtomicU64>,
+}
+
+impl Sink {
+    /// Nothing was dropped yet.
+    pub fn new(name: &'static str, topics: Topics, mail: flume::Sender<Delivered>) -> Self {
+        Sink { name, topics, mail, dropped: Arc::default() }
+    }
 }
 
 enum Subscriber {
@@ -39,6 +50,7 @@ enum Subscriber {
 pub struct EventManager {
     core: Core,
     subscribers: Vec<Subscriber>,
+    shot: Span,
 }
 
 impl EventManager {
@@ -62,7 +74,7 @@ impl EventManager {
         for (id, answer) in first {
             core.answer(id, Tick(0), answer.outcome, answer.digest)?;
         }
-        Ok(EventManager { core, subscribers })
+        Ok(EventManager { core, subscribers, shot: Span::none() })
     }
 
     /// What the clock needs to know before the first tick.
@@ -94,6 +106,8 @@ pub struct Delivery {
     pub digests: SmallVec<[(Source, Digest); 4]>,
     /// A fact was delivered, so the state is worth a hash.
     pub fact: bool,
+    /// The shot that it belongs to, for the log.
+    pub shot: Span,
 }
 
 /// Why a tick could not be delivered.
@@ -122,7 +136,8 @@ impl Message<Seal> for EventManager {
     type Reply = SealAnswer;
 
     async fn handle(&mut self, seal: Seal, _: &mut Context<Self, SealAnswer>) -> SealAnswer {
-        SealAnswer(self.deliver(seal).await)
+        let shot = self.shot.clone();
+        SealAnswer(self.deliver(seal).instrument(shot).await)
     }
 }
 
@@ -138,16 +153,30 @@ impl EventManager {
 
         let mut fact = false;
         let mut asked: SmallVec<[_; 8]> = SmallVec::new();
-        for delivery in self.core.seal(tick) {
+        let deliveries = self.core.seal(tick);
+        if shot::is_told() {
+            let begun = deliveries.iter().find_map(|mail| shot::begun_by(&mail.events, tick));
+            if let Some(shot) = begun {
+                tracing::info!(parent: &shot, "a turn begins");
+                self.shot = shot;
+            }
+        }
+        for delivery in deliveries {
             fact |= delivery.events.iter().any(|stamped| matches!(stamped.event, Event::Fact(_)));
             let mail = Delivered { tick, events: delivery.events, table: table.clone() };
             match &self.subscribers[delivery.to.0] {
                 Subscriber::Seat(who, ask) => {
-                    asked.push((delivery.to, *who, ask(Mail(mail))));
+                    asked.push((delivery.to, *who, ask(Mail(mail, self.shot.clone()))));
                 }
                 Subscriber::Sink(sink) => {
-                    if let Err(flume::TrySendError::Full(_)) = sink.mail.try_send(mail) {
-                        sink.dropped.fetch_add(1, Ordering::Relaxed);
+                    if let Err(flume::TrySendError::Full(_)) = sink.mail.try_send(mail)
+                        && sink.dropped.fetch_add(1, Ordering::Relaxed) == 0
+                    {
+                        tracing::warn!(
+                            "{} is too slow and loses mail from tick {} on",
+                            sink.name,
+                            tick.0
+                        );
                     }
                 }
             }
@@ -162,7 +191,8 @@ impl EventManager {
         for (id, answer) in answers.into_iter().rev() {
             self.core.answer(id, tick, answer.outcome, answer.digest)?;
         }
-        Ok(Delivery { sealed: self.core.sealed(), digests: self.core.digests(), fact })
+        let (sealed, digests) = (self.core.sealed(), self.core.digests());
+        Ok(Delivery { sealed, digests, fact, shot: self.shot.clone() })
     }
 }
 

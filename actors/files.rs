@@ -143,7 +143,8 @@ impl LineWriter {
         Ok(LineWriter { file, draft, path })
     }
 
-    fn draft_of(path: &Path) -> PathBuf {
+    /// The name of a file until it is finished.
+    pub fn draft_of(path: &Path) -> PathBuf {
         let mut draft = path.to_path_buf().into_os_string();
         draft.push(".part");
         PathBuf::from(draft)
@@ -221,6 +222,26 @@ fn folders() -> Result<directories::ProjectDirs, Error> {
     directories::ProjectDirs::from("", "", "hapticbillard").ok_or(Error::NoHome)
 }
 
+/// The folder for the logs of games that were played.
+pub fn logs_folder() -> Result<PathBuf, Error> {
+    Ok(data_folder()?.join("logs"))
+}
+
+/// Makes a folder where there is none.
+pub fn make_folder(path: &Path) -> Result<(), Error> {
+    let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
+    fs::create_dir_all(path).map_err(failed)
+}
+
+/// Opens a file to write behind what is there; its folder is made where there is none.
+pub fn append_to(path: &Path) -> Result<File, Error> {
+    let failed = |reason| Error::Write { path: path.to_path_buf(), reason };
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        make_folder(folder)?;
+    }
+    File::options().create(true).append(true).open(path).map_err(failed)
+}
+
 /// The folder for the recordings of games that were played.
 pub fn recordings_folder() -> Result<PathBuf, Error> {
     Ok(data_folder()?.join("recordings"))
@@ -250,9 +271,30 @@ pub fn processor_name() -> String {
 /// The most memory that a process has had so far [KiB], from its status file under /proc; none if
 /// it has ended or the system has no such file.
 pub fn peak_memory_kib(status: &str) -> Option<u64> {
+    memory_kib(status, "VmHWM")
+}
+
+/// The memory that a process has now [KiB].
+pub fn resident_memory_kib(status: &str) -> Option<u64> {
+    memory_kib(status, "VmRSS")
+}
+
+fn memory_kib(status: &str, key: &str) -> Option<u64> {
     let text = fs::read_to_string(status).ok()?;
-    let line = text.lines().find(|line| line.starts_with("VmHWM"))?;
+    let line = text.lines().find(|line| line.starts_with(key))?;
     line.split_whitespace().nth(1)?.parse().ok()
+}
+
+/// Removes a folder in which nothing is.
+pub fn remove_if_empty(path: &Path) {
+    // One that is not there, or that holds something, stays as it is.
+    let _ = fs::remove_dir(path);
+}
+
+/// Removes a file, if it is there.
+pub fn remove(path: &Path) {
+    // One that is not there is what is wanted.
+    let _ = fs::remove_file(path);
 }
 
 /// The names of what is in a folder, in order; none if it cannot be read.
@@ -277,8 +319,23 @@ pub fn new_recording_name() -> String {
     recording_name(since.as_secs(), since.subsec_millis())
 }
 
+/// Now (UTC), as a log writes it.
+pub fn time_of_now() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let ([year, month, day], [hour, minute, second]) = date_and_time(since.as_secs());
+    let milliseconds = since.subsec_millis();
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{milliseconds:03}Z")
+}
+
 /// The date and time (UTC) of so many seconds after the beginning of 1970, as a file name.
 fn recording_name(seconds: u64, milliseconds: u32) -> String {
+    let ([year, month, day], [hour, minute, second]) = date_and_time(seconds);
+    format!("{year:04}-{month:02}-{day:02}_{hour:02}{minute:02}{second:02}.{milliseconds:03}.jsonl")
+}
+
+/// Year, month and day, and hour, minute and second (UTC), of so many seconds after the beginning
+/// of 1970.
+fn date_and_time(seconds: u64) -> ([u64; 3], [u64; 3]) {
     // Days to years of 400, 100, 4 and 1, counted from the first of March (Fliegel and Van
     // Flandern 1968 do the same with other divisions).
     let days = seconds / 86_400 + 719_468;
@@ -289,8 +346,7 @@ fn recording_name(seconds: u64, milliseconds: u32) -> String {
     let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
     let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
     let year = year + era * 400 + u64::from(month <= 2);
-    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
-    format!("{year:04}-{month:02}-{day:02}_{hour:02}{minute:02}{second:02}.{milliseconds:03}.jsonl")
+    ([year, month, day], [seconds / 3600 % 24, seconds / 60 % 60, seconds % 60])
 }
 
 /// Deletes all but the `keep` newest files that end in `.jsonl` in `folder`; names sort by age.

@@ -5,7 +5,7 @@
 use crate::haptic::{FeltMouse, Stylus};
 use crate::kept::{Kept, Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
-use hapticbillard::events::{Source, Topics};
+use hapticbillard::events::{Command, Event, Source, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::input::{
     Human, HumanView, Led, LedHuman, MouseSplit, RawInput, Reader, StylusWord,
@@ -37,7 +37,7 @@ impl Message<FrameOf> for Input {
     type Reply = Entered;
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
-        Entered(self.0.borrow().inflow(message.0))
+        Entered(told(self.0.borrow().inflow(message.0), message.0))
     }
 }
 
@@ -49,6 +49,20 @@ impl Message<Mail> for Input {
     }
 }
 
+/// The same, and the log has what enters.
+fn told(inflow: Inflow, tick: Tick) -> Inflow {
+    for publication in &inflow.frame {
+        match &publication.event {
+            // A hand says so in every tick.
+            Event::Command(Command::MoveCue(_)) => {
+                tracing::trace!(tick = tick.0, "{:?}", publication.event);
+            }
+            event => tracing::debug!(tick = tick.0, "{event:?}"),
+        }
+    }
+    inflow
+}
+
 /// Somebody who acts from outside and hears nothing: a recording, a script.
 #[derive(Actor)]
 pub struct StandIn(pub Shared<Box<dyn FrameSource>>);
@@ -57,7 +71,7 @@ impl Message<FrameOf> for StandIn {
     type Reply = Entered;
 
     async fn handle(&mut self, message: FrameOf, _: &mut Context<Self, Entered>) -> Entered {
-        Entered(self.0.borrow().inflow(message.0))
+        Entered(told(self.0.borrow().inflow(message.0), message.0))
     }
 }
 

@@ -6,6 +6,7 @@
 //! The game is the same, bit by bit. Who dies over the same message twice stays dead, and so does
 //! who dies too often: then the game stops in order.
 
+use crate::news::News;
 use hapticbillard::events::Health;
 use kameo::prelude::*;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -69,7 +70,7 @@ pub struct Kept<A: Actor> {
     name: String,
     place: Mutex<Place<A>>,
     spawn: Box<dyn Fn() -> ActorRef<A> + Send + Sync>,
-    news: flume::Sender<Health>,
+    news: News,
 }
 
 struct Place<A: Actor> {
@@ -82,10 +83,10 @@ impl<A: Actor> Kept<A> {
     pub fn new(
         name: impl Into<String>,
         spawn: impl Fn() -> ActorRef<A> + Send + Sync + 'static,
-        news: flume::Sender<Health>,
+        news: impl Into<News>,
     ) -> Self {
         let place = Mutex::new(Place { actor: spawn(), left: REPLACED_MAX });
-        Kept { name: name.into(), place, spawn: Box::new(spawn), news }
+        Kept { name: name.into(), place, spawn: Box::new(spawn), news: news.into() }
     }
 
     fn place(&self) -> MutexGuard<'_, Place<A>> {
@@ -109,11 +110,10 @@ impl<A: Actor> Kept<A> {
         // What looks dead does not come back.
         gone.kill();
         place.actor = (self.spawn)();
-        log::warn!("{}: {reason}; another one takes its place", self.name);
+        tracing::warn!("{}: {reason}; another one takes its place", self.name);
         let failed = Health::ActorFailed { actor: self.name.clone(), reason: reason.to_string() };
         for health in [failed, Health::ActorRestarted { actor: self.name.clone() }] {
-            // News that nobody takes are dropped: the log has them.
-            let _ = self.news.try_send(health);
+            self.news.tell(health);
         }
         Some(place.actor.clone())
     }

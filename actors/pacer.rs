@@ -5,6 +5,7 @@
 //! never skipped.
 
 use crate::conductor::{Conductor, Progress, Quit, RunError, Step};
+use crate::meters::Meters;
 use hapticbillard::tick::{End, Finished};
 use hapticbillard::units::Tick;
 use kameo::error::SendError;
@@ -57,10 +58,12 @@ pub async fn run(
     conductor: &ActorRef<Conductor>,
     tempo: Tempo,
     stop: &StopFlag,
+    meters: Option<&Meters>,
 ) -> Result<Finished, RunError> {
     let mut start = (Instant::now(), Tick(0));
     let mut was_hurried = false;
     loop {
+        let begun = meters.and_then(Meters::now);
         let stepped = if stop.is_set() {
             conductor.ask(Quit).await.map_err(gone)?
         } else {
@@ -74,6 +77,9 @@ pub async fn run(
                 start = (Instant::now(), tick);
             }
             Progress::Running | Progress::Hurried => {
+                if let (Some(meters), Some(begun)) = (meters, begun) {
+                    meters.note_tick(tick, begun);
+                }
                 let Tempo::RealTime(rate) = tempo else { continue };
                 let hurried = progress == Progress::Hurried;
                 if hurried != was_hurried {

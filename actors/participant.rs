@@ -9,13 +9,22 @@ use hapticbillard::hash::{Digest, StateHash};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, Outcome, Participant};
 use kameo::error::SendError;
-use kameo::prelude::*;
-use kameo::request::PendingReply;
+use kameo::prelude::{ActorRef, Message, Reply};
+use std::future::ready;
+use std::pin::Pin;
 use std::sync::Arc;
+use std::task::{Context, Poll, Waker};
+use tracing::Span;
 
-/// The mail of one tick.
+/// The mail of one tick, and in which shot it was sent, for the log.
 #[derive(Debug, Clone)]
-pub struct Mail(pub Delivered);
+pub struct Mail(pub Delivered, pub Span);
+
+impl From<Delivered> for Mail {
+    fn from(delivered: Delivered) -> Self {
+        Mail(delivered, Span::none())
+    }
+}
 
 /// The answer to the mail: what the participant publishes, and the hash of its state.
 #[derive(Debug, Clone, Reply)]
@@ -29,40 +38,34 @@ pub struct Answer {
 /// Puts mail into a participant's mailbox at once and returns the answer to come.
 pub type Ask = Box<dyn Fn(Mail) -> Asked + Send + Sync + 'static>;
 
-/// Asks whoever takes the place of somebody who died for this reason.
-pub type Again = Box<dyn FnOnce(&str) -> Asked + Send>;
+/// Asks whoever takes the place of somebody who died for this reason; none if nobody does.
+pub type Again = Box<dyn FnOnce(&str) -> Option<Answering> + Send>;
 
 /// What came of the mail.
 pub type Answered = Result<Answer, SendError<Mail>>;
 
+/// An answer to come.
+pub type Answering = Pin<Box<dyn Future<Output = Answered> + Send>>;
+
 /// Somebody was asked.
-pub enum Asked {
-    /// The mail is in the mailbox.
-    Pending(PendingReply<Mail, Answer>),
-    /// The same, and who dies over it is replaced and asked again.
-    Kept(PendingReply<Mail, Answer>, Again),
-    /// The participant is gone, or its mailbox is full.
-    Refused(Box<SendError<Mail>>),
+pub struct Asked {
+    answer: Answering,
+    /// Who dies over the mail is replaced and asked again.
+    again: Option<Again>,
 }
 
 impl Asked {
     /// Waits for the answer.
     ///
     /// # Errors
-    /// What became of the mail: the participant is gone, it died over it, or its mailbox is full.
-    /// It is asked once a tick and answers before the next, so a full mailbox means that somebody
-    /// else writes to it.
+    /// What became of the mail: the participant is gone, or it died over it.
     pub async fn answer(self) -> Answered {
-        let again = match self {
-            Asked::Kept(answer, again) => match answer.await {
-                Ok(answer) => return Ok(answer),
-                Err(error) => again(&error.to_string()),
+        match (self.answer.await, self.again) {
+            (Err(error), Some(again)) => match again(&error.to_string()) {
+                Some(answer) => answer.await,
+                None => Err(error),
             },
-            asked => asked,
-        };
-        match again {
-            Asked::Pending(answer) | Asked::Kept(answer, _) => answer.await,
-            Asked::Refused(error) => Err(*error),
+            (answered, _) => answered,
         }
     }
 }
@@ -81,47 +84,35 @@ pub struct Seat {
 
 /// The door to an actor that answers [`Mail`].
 pub fn door<A: Message<Mail, Reply = Answer>>(actor: ActorRef<A>) -> Ask {
-    Box::new(move |mail| put(&actor, mail))
+    Box::new(move |mail| Asked { answer: put(&actor, mail), again: None })
 }
 
 /// The door to whoever is in this place.
 pub fn kept_door<A: Message<Mail, Reply = Answer>>(kept: Arc<Kept<A>>) -> Ask {
     Box::new(move |mail| {
         let actor = kept.actor();
-        let again = {
-            let (kept, actor, mail) = (kept.clone(), actor.clone(), mail.clone());
-            move |reason: &str| match kept.instead_of(&actor, reason) {
-                Some(other) => put(&other, mail),
-                None => Asked::Refused(Box::new(SendError::ActorNotRunning(mail))),
-            }
-        };
-        match put(&actor, mail) {
-            Asked::Pending(answer) => Asked::Kept(answer, Box::new(again)),
-            Asked::Refused(error) => again(&error.to_string()),
-            asked => asked,
-        }
+        let answer = put(&actor, mail.clone());
+        let kept = kept.clone();
+        let again = move |reason: &str| Some(put(&kept.instead_of(&actor, reason)?, mail));
+        Asked { answer, again: Some(Box::new(again)) }
     })
 }
 
-/// Puts mail into the mailbox of an actor.
-fn put<A: Message<Mail, Reply = Answer>>(actor: &ActorRef<A>, mail: Mail) -> Asked {
-    // Kameo's `try_enqueue` panics where mail is refused, so it is looked at before. Between
-    // two ticks a participant has nothing to do that it could die of.
-    if !actor.is_alive() {
-        return Asked::Refused(Box::new(SendError::ActorNotRunning(mail)));
-    }
-    if actor.mailbox_sender().capacity() == Some(0) {
-        return Asked::Refused(Box::new(SendError::MailboxFull(mail)));
-    }
-    match actor.ask(mail).try_enqueue() {
-        Ok(answer) => Asked::Pending(answer),
-        Err(_) => Asked::Refused(Box::new(SendError::ActorStopped)),
+/// Puts mail into the mailbox of an actor, now if there is room; otherwise it waits there with
+/// others who write to it. (Kameo's own `try_enqueue` panics where mail is refused.)
+fn put<A: Message<Mail, Reply = Answer>>(actor: &ActorRef<A>, mail: Mail) -> Answering {
+    let actor = actor.clone();
+    let mut answer: Answering = Box::pin(async move { actor.ask(mail).send().await });
+    // The mail is sent when the future is polled first; whoever awaits it wakes for the answer.
+    match answer.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(answered) => Box::pin(ready(answered)),
+        Poll::Pending => answer,
     }
 }
 
 /// Hands `mail` to a core.
 pub fn collect(core: &mut (impl Participant + ?Sized), mail: &Mail) -> Answer {
-    let outcome = core.collect(&mail.0);
+    let outcome = mail.1.in_scope(|| core.collect(&mail.0));
     Answer { outcome, digest: digest(core) }
 }
 

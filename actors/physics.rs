@@ -8,6 +8,7 @@ use hapticbillard::units::Tick;
 use kameo::prelude::*;
 use smallvec::SmallVec;
 use std::sync::Arc;
+use tracing::level_filters::LevelFilter;
 
 /// Owns the simulation.
 #[derive(Actor)]
@@ -37,6 +38,10 @@ impl Physics {
     }
 
     fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
+        if LevelFilter::DEBUG <= LevelFilter::current() {
+            let facts = moved.iter().flat_map(|advanced| &advanced.facts);
+            facts.for_each(|fact| tracing::debug!("{fact:?}"));
+        }
         let slots = [&mut self.world, &mut self.heard];
         if let Ok(advanced) = &moved {
             for slot in slots.into_iter().flatten() {

@@ -8,6 +8,7 @@ mod keeper;
 
 pub use keeper::{Keeper, Lost, Open};
 
+use crate::crew::Crew;
 use crate::error::Error;
 use crate::files::LineWriter;
 use hapticbillard::replay::Line;
@@ -44,9 +45,23 @@ impl Recorder {
     /// # Errors
     /// As for [`Recorder::open`].
     pub fn start(path: &Path, length: u64) -> Result<ReplyRecipient<Record, Written>, Error> {
+        Self::start_in(&Crew::default(), path, length)
+    }
+
+    /// The same, one of a crew.
+    ///
+    /// # Errors
+    /// As for [`Recorder::open`].
+    pub fn start_in(
+        crew: &Crew,
+        path: &Path,
+        length: u64,
+    ) -> Result<ReplyRecipient<Record, Written>, Error> {
         let recorder = Self::open(path, length)?;
         let mailbox = mailbox::bounded(MAILBOX);
-        Ok(Self::spawn_in_thread_with_mailbox(recorder, mailbox).reply_recipient())
+        let actor = Self::spawn_in_thread_with_mailbox(recorder, mailbox);
+        crew.tell("recorder", &actor);
+        Ok(actor.reply_recipient())
     }
 
     /// Writes a line; the last one closes the file.

@@ -8,6 +8,8 @@ mod desk;
 
 mod felt;
 
+mod game_thread;
+
 mod heard;
 
 mod hud;
@@ -17,6 +19,8 @@ mod keys;
 mod materials;
 
 mod menu;
+
+mod meters;
 
 mod offscreen;
 
@@ -36,7 +40,7 @@ mod window;
 
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
-pub use offscreen::{pixels, written};
+pub use offscreen::{card, pixels, written};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
 pub use window::{Backdrop, Host, NoWindow, WindowSetup, show};

@@ -12,6 +12,10 @@ impl Message<Mail> for Rules {
     type Reply = Answer;
 
     async fn handle(&mut self, mail: Mail, _: &mut Context<Self, Answer>) -> Answer {
-        collect(&mut self.0, &mail)
+        let answer = collect(&mut self.0, &mail);
+        for publication in &answer.outcome.publish {
+            tracing::debug!(parent: &mail.1, "{:?}", publication.event);
+        }
+        answer
     }
 }

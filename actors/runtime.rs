@@ -7,10 +7,13 @@
 
 use crate::ai::{Ai, ThinkAhead};
 use crate::conductor::{Below, Conductor, EndRecording, RunError};
+use crate::crew::{Crew, MAILBOX};
 use crate::event_manager::{EventManager, Sink};
 use crate::haptic;
 use crate::input::{Hand, Input, StandIn, frame_door};
 use crate::kept::{Kept, Saved, Shared};
+use crate::meters::{Meters, Watched};
+use crate::news::News;
 use crate::observer::Observer;
 use crate::pacer::{self, StopFlag, Tempo};
 use crate::participant::{self, Answer, Mail, Seat, door, kept_door};
@@ -20,7 +23,6 @@ use crate::rules::Rules;
 use crate::sound;
 use hapticbillard::ai::Player;
 use hapticbillard::cast::Cast;
-use hapticbillard::events::Health;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::{Header, Line, Recording};
 use hapticbillard::tick::{Clock, Finished, FrameSource, Pace, Participant};
@@ -29,10 +31,6 @@ use kameo::mailbox;
 use kameo::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// How many messages an actor of the tick can have waiting: it is asked once a tick and answers
-/// before the next, so two are one more than ever wait. When it is full the asker waits.
-const MAILBOX: usize = 2;
 
 /// How a cast is run.
 pub struct Setup {
@@ -69,6 +67,8 @@ pub struct Setup {
     pub stop: StopFlag,
     /// Who wants to know of every actor.
     pub crew: Crew,
+    /// Where is measured, while somebody looks.
+    pub meters: Option<Arc<Meters>>,
 }
 
 /// Who acts from outside.
@@ -97,7 +97,7 @@ pub struct Felt {
     pub world: haptic::WorldPort,
 }
 
-/// News from the controls of servo and sound that wait at most.
+/// News for the player that wait at most; see [`News`].
 const NEWS: usize = 64;
 
 impl Setup {
@@ -120,45 +120,7 @@ impl Setup {
             workers: 1,
             stop: StopFlag::default(),
             crew: Crew::default(),
-        }
-    }
-}
-
-/// Spawns the actors of the tick, and tells of each whoever supervises them.
-#[derive(Clone, Default)]
-pub struct Crew(pub Option<flume::Sender<Member>>);
-
-/// One of the crew.
-pub struct Member {
-    /// Its name.
-    pub name: &'static str,
-    kill: Box<dyn Fn() + Send>,
-}
-
-impl Member {
-    /// Kills it, if it lives.
-    pub fn kill(&self) {
-        (self.kill)();
-    }
-}
-
-impl Crew {
-    fn join<A: Actor<Args = A>>(&self, name: &'static str, actor: A) -> ActorRef<A> {
-        let actor = A::spawn_with_mailbox(actor, mailbox::bounded(MAILBOX));
-        self.tell(name, &actor);
-        actor
-    }
-
-    fn tell<A: Actor>(&self, name: &'static str, actor: &ActorRef<A>) {
-        if let Some(told) = &self.0 {
-            let actor = actor.downgrade();
-            let kill = Box::new(move || {
-                if let Some(actor) = actor.upgrade() {
-                    actor.kill();
-                }
-            });
-            // Whoever has left need not know.
-            let _ = told.send(Member { name, kill });
+            meters: None,
         }
     }
 }
@@ -183,8 +145,13 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let Cast { simulation, referee, players, .. } = cast;
     let table = simulation.snapshot(0.0);
 
-    let crew = setup.crew;
+    let meters = setup.meters;
+    let crew = Watched { crew: setup.crew, meters: meters.clone() };
     let (tell, news) = flume::bounded(NEWS);
+    let tell = News::from(tell);
+    if let Some(meters) = &meters {
+        meters.watch_news(&tell);
+    }
 
     // Participants, in the order in which they are registered.
     let mut seats = Vec::new();
@@ -232,6 +199,21 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let (keeper, felt_world) = felt.unzip();
     let signs = keeper.as_ref().map(|keeper| keeper.seat().signs().clone());
 
+    let recording = match setup.record {
+        None => None,
+        Some((path, header)) => {
+            let begun = Keeper::begin(path, Line::Recording(header), setup.recorder).await;
+            Some(begun.map_err(|error| RunError::Recording(error.to_string()))?)
+        }
+    };
+
+    if let Some(meters) = &meters {
+        sinks.iter().for_each(|sink| meters.watch_sink(sink));
+    }
+    let events =
+        EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
+    let clock = Clock::new(setup.pace, setup.limit, events.before_first());
+    let events = crew.join("event manager", events);
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
     crew.tell("physics", &physics_ref);
@@ -241,19 +223,6 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     } else {
         physics.spawn(body);
     }
-
-    let recording = match setup.record {
-        None => None,
-        Some((path, header)) => {
-            let begun = Keeper::begin(path, Line::Recording(header), setup.recorder).await;
-            Some(begun.map_err(|error| RunError::Recording(error.to_string()))?)
-        }
-    };
-
-    let events =
-        EventManager::new(seats, sinks).map_err(|error| RunError::Delivery(error.into()))?;
-    let clock = Clock::new(setup.pace, setup.limit, events.before_first());
-    let events = crew.join("event manager", events);
     let below = Below {
         physics: physics_ref.clone(),
         events: events.clone(),
@@ -265,7 +234,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     };
     let conductor = crew.join("conductor", Conductor::new(clock, below));
 
-    let finished = pacer::run(&conductor, setup.tempo, &setup.stop).await;
+    let finished = pacer::run(&conductor, setup.tempo, &setup.stop, meters.as_deref()).await;
     // A conductor that is gone took its recording with it; what is on disk stays there.
     let lost = conductor.ask(EndRecording).await.ok().and_then(|recorded| recorded.0);
 
@@ -285,7 +254,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
             Err(RunError::Recording(lost.to_string()))
         }
         (finished, Some(lost)) => {
-            log::warn!("{lost}");
+            tracing::warn!("{lost}");
             finished
         }
         (finished, None) => finished,
@@ -309,12 +278,7 @@ where
 }
 
 /// The same for a computer player, whose actor is replaced when it dies.
-fn keep_player(
-    mut core: Player,
-    crew: &Crew,
-    news: &flume::Sender<Health>,
-    table: &Snapshot,
-) -> Seat {
+fn keep_player(mut core: Player, crew: &Watched, news: &News, table: &Snapshot) -> Seat {
     let (source, topics) = (core.source(), core.topics());
     let first = participant::start(&mut core, table);
     let (core, crew) = (Shared::new(Saved::new(core)), crew.clone());

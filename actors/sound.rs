@@ -97,7 +97,7 @@ pub fn bank(recordings: Option<&Path>, rate_hz: u32) -> Result<Bank, NoSound> {
     #[cfg(feature = "sound")]
     if let Some(folder) = recordings {
         let (bank, refused) = bank_files::read_folder(folder, rate_hz)?;
-        refused.iter().for_each(|refused| log::warn!("{SOUND}: {refused}"));
+        refused.iter().for_each(|refused| tracing::warn!("{SOUND}: {refused}"));
         return Ok(bank);
     }
     let _ = (recordings, rate_hz);

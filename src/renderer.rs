@@ -30,6 +30,8 @@ mod overlay;
 
 mod thoughts;
 
+mod meters;
+
 pub use draw_list::{
     BallInstance, DrawList, GhostBall, Label, Line, Radii, Solid, SolidShape, StylusPose,
 };
@@ -39,6 +41,7 @@ pub use felt_eye::FeltEye;
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, BallSet, ball_look};
 pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
+pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spread};
 pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};

@@ -33,7 +33,7 @@ impl Thinker for ThinkAhead {
                 Box::new(Ahead { search: Some(search), cancelled, mind: mind.clone(), task })
             }
             Err(error) => {
-                log::warn!("no thread to think on ({error}); the game waits for each decision");
+                tracing::warn!("no thread to think on ({error}); the game waits for each decision");
                 ThinkInline.begin(mind, task)
             }
         }
@@ -56,7 +56,7 @@ impl Thinking for Ahead {
         match answer {
             Some(Ok(deliberation)) => deliberation,
             _ => {
-                log::warn!("a search failed; it is done again");
+                tracing::warn!("a search failed; it is done again");
                 let_others_go_on(|| self.mind.deliberate(&self.task, &Inline))
             }
         }
@@ -86,7 +86,9 @@ fn pool() -> Option<&'static ThreadPool> {
         match ThreadPoolBuilder::new().thread_name(named).build() {
             Ok(pool) => Some(pool),
             Err(error) => {
-                log::warn!("no threads to think on ({error}); the game waits for each decision");
+                tracing::warn!(
+                    "no threads to think on ({error}); the game waits for each decision"
+                );
                 None
             }
         }

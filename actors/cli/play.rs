@@ -148,7 +148,7 @@ fn recording(args: &PlayArgs, is_first: bool) -> Option<PathBuf> {
     match recordings_folder() {
         Ok(folder) => Some(folder.join(new_recording_name())),
         Err(error) => {
-            log::warn!("the game is not recorded: {error}");
+            tracing::warn!("the game is not recorded: {error}");
             None
         }
     }
@@ -162,7 +162,7 @@ fn tidy_up(args: &PlayArgs, path: Option<&PathBuf>) {
     if let Some(folder) = path.and_then(|path| path.parent())
         && let Err(error) = keep_newest(folder, KEPT)
     {
-        log::warn!("{error}");
+        tracing::warn!("{error}");
     }
 }
 
@@ -176,7 +176,7 @@ pub fn stop_at_interrupt() -> StopFlag {
         // Without a handler Ctrl-C ends the program at once, and leaves a recording without its
         // end.
         if let Err(error) = ctrlc::set_handler(move || flag.set()) {
-            log::warn!("Ctrl-C will not end the game in order: {error}");
+            tracing::warn!("Ctrl-C will not end the game in order: {error}");
         }
         stop
     });

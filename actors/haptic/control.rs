@@ -125,7 +125,7 @@ impl Haptic {
                 _ => None,
             };
             let reason = why.map_or(reason.to_string(), |why| format!("{reason}; {why}"));
-            log::warn!("{HAPTIC} ({flag:?}): {reason}");
+            tracing::warn!("{HAPTIC} ({flag:?}): {reason}");
             failed(&reason);
         }
         if was_running && !self.was_running {

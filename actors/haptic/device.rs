@@ -156,12 +156,12 @@ fn first_there() -> Option<Opened> {
     match openhaptics::open(openhaptics::named().as_deref(), None) {
         Ok(opened) => return Some(opened),
         Err(NoOpenHaptics::NoLibrary { .. }) => {}
-        Err(error) => log::warn!("{error}"),
+        Err(error) => tracing::warn!("{error}"),
     }
     match haply::open(haply::ADDRESS, TRIED) {
         Ok(opened) => return Some(opened),
         Err(NoHaply::Unreachable { .. }) => {}
-        Err(error) => log::warn!("{error}"),
+        Err(error) => tracing::warn!("{error}"),
     }
     None
 }
@@ -220,12 +220,13 @@ pub struct FeltMouse {
     held: Buttons,
     /// After a stroke the hand draws back by itself.
     draws_back: bool,
+    lost: u64,
 }
 
 impl FeltMouse {
     /// A mouse without a button held.
     pub fn new(port: MousePort) -> Self {
-        FeltMouse { port, held: Buttons::default(), draws_back: false }
+        FeltMouse { port, held: Buttons::default(), draws_back: false, lost: 0 }
     }
 
     /// The same of somebody who strikes: after each stroke the hand draws back by itself.
@@ -236,7 +237,7 @@ impl FeltMouse {
 
     /// The hand goes back to where it began.
     pub fn go_home(&mut self) {
-        let _ = self.port.say(MouseMove::Home);
+        self.say(MouseMove::Home);
     }
 
     /// Takes a report.
@@ -259,12 +260,27 @@ impl FeltMouse {
             }
             RawInput::Key { .. } | RawInput::Picked { .. } | RawInput::Aid(_) => return,
         };
-        // A full ring loses movements; whatever is held is said again with the next button.
-        let _ = self.port.say(heard);
+        self.say(heard);
         let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
         if is_let_go && self.draws_back {
-            let _ = self.port.say(MouseMove::DrawBack);
+            self.say(MouseMove::DrawBack);
         }
+    }
+
+    /// A full ring loses what is said, and that is counted; whatever is held is said again with the
+    /// next button.
+    fn say(&mut self, report: MouseMove) {
+        if !self.port.say(report) {
+            self.lost += 1;
+            if self.lost == 1 {
+                tracing::warn!("the simulated device takes no more of the mouse");
+            }
+        }
+    }
+
+    /// What was said in vain.
+    pub fn lost(&self) -> u64 {
+        self.lost
     }
 }
 

@@ -153,7 +153,7 @@ impl Drop for HaplyDevice {
         if let Some(thread) = self.thread.take()
             && thread.join().is_err()
         {
-            log::error!("the talk with the Haply service ended by a defect");
+            tracing::error!("the talk with the Haply service ended by a defect");
         }
     }
 }

@@ -5,6 +5,7 @@ use super::HAPTIC;
 use super::control::{Haptic, Look};
 use super::rights::Refusal;
 use super::seat::Seat;
+use crate::news::News;
 use hapticbillard::events::Health;
 use kameo::mailbox;
 use kameo::prelude::*;
@@ -34,16 +35,17 @@ pub struct Keeper {
 pub type Joins = Box<dyn Fn(&ActorRef<Haptic>) + Send + Sync>;
 
 /// Keeps a control at this servo, and tells `news` what the player should know.
-pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>) -> Keeper {
+pub fn keep(seat: Arc<Seat>, news: impl Into<News>) -> Keeper {
     keep_and_tell(seat, news, Box::new(|_| ()))
 }
 
 /// The same, and `joins` is told of each control.
-pub fn keep_and_tell(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
+pub fn keep_and_tell(seat: Arc<Seat>, news: impl Into<News>, joins: Joins) -> Keeper {
+    let news = news.into();
     for refusal in seat.refusals() {
-        log::warn!("{HAPTIC}: {refusal}");
+        tracing::warn!("{HAPTIC}: {refusal}");
         let Refusal { asked, reason, remedy } = refusal.clone();
-        tell(&news, Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });
+        news.tell(Health::Refused { actor: HAPTIC.into(), asked, reason, remedy });
     }
     let (shown, control) = watch::channel(None);
     let (end, ended) = watch::channel(false);
@@ -72,7 +74,7 @@ impl Keeper {
 
 async fn run(
     seat: Arc<Seat>,
-    news: flume::Sender<Health>,
+    news: News,
     joins: Joins,
     shown: watch::Sender<Option<ActorRef<Haptic>>>,
     mut ended: watch::Receiver<bool>,
@@ -86,7 +88,7 @@ async fn run(
             shown.send_replace(Some(control.clone()));
             joins(&control);
             if was_gone {
-                tell(&news, Health::ActorRestarted { actor: HAPTIC.into() });
+                news.tell(Health::ActorRestarted { actor: HAPTIC.into() });
             }
             let looks = look_on(&control, &news, &mut ended).await;
             shown.send_replace(None);
@@ -97,8 +99,8 @@ async fn run(
                 return;
             }
             let reason = "its control stopped: no force until another one starts".to_string();
-            log::warn!("{HAPTIC}: {reason}");
-            tell(&news, Health::ActorFailed { actor: HAPTIC.into(), reason });
+            tracing::warn!("{HAPTIC}: {reason}");
+            news.tell(Health::ActorFailed { actor: HAPTIC.into(), reason });
             was_gone = true;
             pause = if looks < SETTLED { (2 * pause).min(PAUSE_MAX) } else { PAUSE };
         }
@@ -112,7 +114,7 @@ async fn run(
 /// Looks at the servo until its control is gone or the end comes; returns how often.
 async fn look_on(
     control: &ActorRef<Haptic>,
-    news: &flume::Sender<Health>,
+    news: &News,
     ended: &mut watch::Receiver<bool>,
 ) -> u32 {
     let mut looks = 0_u32;
@@ -123,11 +125,6 @@ async fn look_on(
         }
         let Ok(looked) = control.ask(Look).await else { return looks };
         looks = looks.saturating_add(1);
-        looked.news.into_iter().for_each(|health| tell(news, health));
+        looked.news.into_iter().for_each(|health| news.tell(health));
     }
-}
-
-/// News that nobody takes are dropped: the log has them.
-fn tell(news: &flume::Sender<Health>, health: Health) {
-    let _ = news.try_send(health);
 }

@@ -105,7 +105,7 @@ pub enum NoOpenHaptics {
 pub fn open(library: Option<&Path>, name: Option<&str>) -> Result<Opened, NoOpenHaptics> {
     let session = Arc::new(Session::open(library::load(library)?, name)?);
     if let Some(refusal) = &session.rate_refused {
-        log::warn!("{refusal}");
+        tracing::warn!("{refusal}");
     }
     let (reason, closed) = (Arc::<Reason>::default(), Arc::<AtomicBool>::default());
     let device = Handset::new(session.clone(), reason.clone(), closed.clone());

@@ -20,6 +20,7 @@ use hapticbillard::haptic::{
 use hapticbillard::physics::Parameters;
 use hapticbillard::tick::Delivered;
 use hapticbillard::units::Seconds;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What a servo is made of.
@@ -56,7 +57,8 @@ impl Lay {
     }
 }
 
-/// Mail that waits for a control at most; it only says where the cue ball lies.
+/// Mail that waits for a control at most; it only says where the cue ball lies. What does not fit
+/// is counted as dropped.
 const MAIL: usize = 64;
 
 /// A servo that runs, and the ends that belong to others.
@@ -78,6 +80,7 @@ pub struct Seat {
     spec: DeviceSpec,
     lay: Option<Lay>,
     mail: (flume::Sender<Delivered>, flume::Receiver<Delivered>),
+    dropped: Arc<AtomicU64>,
     /// With what was ordered last: another control goes on with it.
     control: Mutex<Option<(ControlPorts, Orders)>>,
 }
@@ -114,7 +117,17 @@ impl Seat {
             None => Box::new(ServoThread::start(body, asked)?),
         };
         let (mail, control) = (flume::bounded(MAIL), Mutex::new(Some((control, orders))));
-        let seat = Seat { turns, timing, signs, explains, spec, lay, mail, control };
+        let seat = Seat {
+            turns,
+            timing,
+            signs,
+            explains,
+            spec,
+            lay,
+            mail,
+            dropped: Arc::default(),
+            control,
+        };
         Ok(Started { seat: Arc::new(seat), world, stylus })
     }
 
@@ -172,7 +185,13 @@ impl Seat {
     /// What its control wants to be told, and where to.
     pub fn sink(&self) -> Sink {
         let topics = Topics::of(&[Topic::Turn, Topic::Settled, Topic::BallPlaced]);
-        Sink { topics, mail: self.mail.0.clone(), dropped: Arc::default() }
+        let (mail, dropped) = (self.mail.0.clone(), self.dropped.clone());
+        Sink { name: super::HAPTIC, topics, mail, dropped }
+    }
+
+    /// Mail that found its queue full.
+    pub fn dropped(&self) -> u64 {
+        self.dropped.load(Ordering::Relaxed)
     }
 
     /// What the control was told.

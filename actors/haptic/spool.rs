@@ -68,7 +68,7 @@ impl Spool {
 impl Drop for Spool {
     fn drop(&mut self) {
         if let Err(error) = self.join() {
-            log::warn!("{error}");
+            tracing::warn!("{error}");
         }
     }
 }

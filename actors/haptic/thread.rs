@@ -78,7 +78,9 @@ impl Drop for ServoThread {
         if let Some(thread) = self.thread.take()
             && thread.join().is_err()
         {
-            log::error!("the haptic servo ended by a defect; the device was left without force");
+            tracing::error!(
+                "the haptic servo ended by a defect; the device was left without force"
+            );
         }
     }
 }

@@ -45,7 +45,7 @@ pub struct Lost {
 pub struct Keeper {
     path: PathBuf,
     open: Open,
-    recorder: Option<ReplyRecipient<Record, Written>>,
+    recorder: Option<Hired>,
     /// On disk for certain [bytes].
     length: u64,
     /// The tick of the last line that is on disk.
@@ -91,7 +91,7 @@ impl Keeper {
         if self.gave_up {
             return None;
         }
-        let tick = tick_of(&line);
+        let tick = line.tick();
         let is_last = matches!(line, Line::End { .. });
         self.waiting.push_back(line);
         // Whoever is down is left alone for a while, unless there is no later.
@@ -102,7 +102,7 @@ impl Keeper {
             Ok(()) if self.failures == 0 => return None,
             Ok(()) => {
                 self.failures = 0;
-                log::warn!("the game is recorded again, and nothing is missing");
+                tracing::warn!("the game is recorded again, and nothing is missing");
                 return Some(Health::ActorRestarted { actor: RECORDER.into() });
             }
             Err(failure) => failure,
@@ -114,18 +114,25 @@ impl Keeper {
         self.failures = self.failures.saturating_add(1);
         // Told once; that it fails again and again is no news.
         if self.failures == 1 {
-            log::warn!("the game is not recorded for now: {}", self.reason);
+            tracing::warn!("the game is not recorded for now: {}", self.reason);
             return Some(self.failed());
         }
         self.give_up_when_full()
     }
 
-    /// Waits until the recorder has stopped, and says what is missing.
+    /// Waits until the recorder has stopped, and says what is missing. What waits for one is
+    /// written now: there is no later.
     pub async fn end(mut self) -> Option<Lost> {
+        if !self.gave_up && !self.waiting.is_empty() {
+            self.recorder = None;
+            if let Err(failure) = self.write_waiting().await {
+                self.reason = failure.to_string();
+            }
+        }
         if let Some(recorder) = self.recorder.take() {
             // One that has stopped already is what is wanted.
-            let _ = recorder.stop_gracefully().await;
-            recorder.wait_for_shutdown().await;
+            let _ = recorder.0.stop_gracefully().await;
+            recorder.0.wait_for_shutdown().await;
         }
         let is_whole = self.waiting.is_empty() && !self.gave_up;
         (!is_whole).then_some(Lost { file: self.path, tick: self.reached, reason: self.reason })
@@ -141,30 +148,32 @@ impl Keeper {
         }
         self.waiting = VecDeque::new();
         self.gave_up = true;
-        log::warn!("the recording ends at tick {}: {}", self.reached.0, self.reason);
+        tracing::warn!("the recording ends at tick {}: {}", self.reached.0, self.reason);
         Some(self.failed())
     }
 
     /// Writes all that waits, in order, with a new recorder if there is none.
     async fn write_waiting(&mut self) -> Result<(), Failure> {
         if self.recorder.is_none() {
-            self.recorder = Some((self.open)(&self.path, self.length)?);
+            self.recorder = Some(Hired((self.open)(&self.path, self.length)?));
         }
         while let (Some(line), Some(recorder)) = (self.waiting.front(), &self.recorder) {
-            let written = recorder.ask(Record(line.clone())).send().await;
+            let written = recorder.0.ask(Record(line.clone())).send().await;
             self.length = written.map_err(|error| Failure::Gone(error.to_string()))?.0?;
-            self.reached = tick_of(line);
+            self.reached = line.tick();
             self.waiting.pop_front();
         }
         Ok(())
     }
 }
 
-fn tick_of(line: &Line) -> Tick {
-    match line {
-        Line::Recording(_) => Tick(0),
-        Line::Frame { tick, .. } | Line::End { tick, .. } => *tick,
-        Line::Hash(hash) => hash.tick,
+/// A recorder that goes when it is let go: an actor with a thread of its own holds itself, and
+/// would stay for ever.
+struct Hired(ReplyRecipient<Record, Written>);
+
+impl Drop for Hired {
+    fn drop(&mut self) {
+        self.0.kill();
     }
 }
 

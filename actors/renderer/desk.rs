@@ -57,6 +57,9 @@ pub(super) struct Desk<'a> {
     is_full: bool,
     /// The key for pictures is down.
     is_picture_held: bool,
+    /// The key for the panel of the runtime is down, and the panel is shown.
+    is_meters_held: bool,
+    shows_meters: bool,
     /// The next picture is kept in a file.
     wants_picture: bool,
     /// What is said of that, and until when.
@@ -92,6 +95,8 @@ impl<'a> Desk<'a> {
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
             lobby: Lobby::new(setup.menu),
             is_picture_held: false,
+            is_meters_held: false,
+            shows_meters: false,
             backdrop: None,
             game: None,
             unkept: None,
@@ -219,6 +224,11 @@ impl<'a> Desk<'a> {
             self.is_picture_held = down;
             return;
         }
+        if let RawInput::Key { key: Key::Meters, down } = report {
+            self.shows_meters ^= down && !self.is_meters_held;
+            self.is_meters_held = down;
+            return;
+        }
         let orders = self.lobby.hear(report, self.pointed());
         self.obey(orders, flow);
     }
@@ -303,7 +313,7 @@ impl<'a> Desk<'a> {
 
     /// A menu says what went wrong; without one nothing more is to be done.
     fn complain(&mut self, error: Error, flow: &mut ControlFlow) {
-        log::warn!("{error}");
+        tracing::warn!("{error}");
         if !self.lobby.complain(self.words.fill("failed", "reason", &error.to_string())) {
             self.failed = Some(error);
             flow.set_exit();
@@ -437,7 +447,10 @@ impl<'a> Desk<'a> {
 
     fn draw(&mut self) {
         let now_s = self.now_s();
+        let mut begun = None;
         if let Some(game) = &mut self.game {
+            game.meters.show(self.shows_meters);
+            begun = game.meters.now();
             game.take_news(now_s);
             for order in self.lobby.see(game.mode() == HumanMode::Paused) {
                 if let Order::Tell(report) = order {
@@ -452,6 +465,7 @@ impl<'a> Desk<'a> {
         let size = self.window.inner_size();
         let is_same = self.shown.as_ref().is_some_and(|(a, b)| (a, b) == (&list, &written));
         if is_same || size.width == 0 || size.height == 0 {
+            self.note_picture(None);
             return;
         }
         let viewport = Viewport::new_at_origo(size.width, size.height);
@@ -475,12 +489,22 @@ impl<'a> Desk<'a> {
         let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
         let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
         match drawn.map(|_| self.graphics.swap_buffers()) {
-            Ok(Ok(())) => self.shown = Some((list, written)),
-            Ok(Err(error)) => log::warn!("the window shows nothing: {error}"),
-            Err(error) => log::warn!("the window shows nothing: {error}"),
+            Ok(Ok(())) => {
+                self.shown = Some((list, written));
+                self.note_picture(begun);
+            }
+            Ok(Err(error)) => tracing::warn!("the window shows nothing: {error}"),
+            Err(error) => tracing::warn!("the window shows nothing: {error}"),
         }
         if let Some(rows) = picture {
             self.keep_picture(&rows, (size.width, size.height));
+        }
+    }
+
+    /// A picture is there, begun then, or another one was not needed.
+    fn note_picture(&mut self, begun: Option<Instant>) {
+        if let Some(game) = &mut self.game {
+            game.meters.drawn(begun);
         }
     }
 

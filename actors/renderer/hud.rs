@@ -39,6 +39,9 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     if let Some(panel) = &hud.thoughts {
         pen.thoughts(panel, if hud.seats.len() < 2 { 14.0 } else { 98.0 });
     }
+    if let Some(panel) = &hud.meters {
+        pen.meters(panel);
+    }
     if let Some(menu) = &hud.menu {
         pen.menu(menu);
     } else if let Some((title, rows)) = &hud.help {

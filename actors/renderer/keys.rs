@@ -41,6 +41,7 @@ pub fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::PageUp => Key::PageUp,
         Code::PageDown => Key::PageDown,
         Code::F1 => Key::Help,
+        Code::F3 => Key::Meters,
         Code::F12 => Key::Picture,
         Code::Key1 | Code::Numpad1 => Key::Letter('1'),
         Code::Key2 | Code::Numpad2 => Key::Letter('2'),

@@ -1,20 +1,29 @@
 //! What the window has to say to the hand, in order.
 
 use hapticbillard::input::RawInput;
+use hapticbillard::renderer::QueueReading;
+use std::collections::VecDeque;
+
+/// Buttons, keys and movements between them that wait here at most: nobody's hand makes so many
+/// before the game looks again.
+const WAITING: usize = 4096;
 
 /// Reports on their way to the hand.
 ///
 /// The channel is bounded and the window never waits for it: when it is full, movements add up
-/// here and buttons and keys wait in order. So nothing is lost and the queue stays short.
+/// here and buttons and keys wait in order. So nothing is lost and the queue stays short. When even
+/// here [`WAITING`] wait, the game does not listen: all of them are dropped and counted, and
+/// everything counts as let go.
 pub struct Outbox {
     channel: flume::Sender<RawInput>,
-    waiting: std::collections::VecDeque<RawInput>,
+    waiting: VecDeque<RawInput>,
+    lost: u64,
 }
 
 impl Outbox {
     /// An outbox for this channel.
     pub fn new(channel: flume::Sender<RawInput>) -> Self {
-        Outbox { channel, waiting: std::collections::VecDeque::new() }
+        Outbox { channel, waiting: VecDeque::new(), lost: 0 }
     }
 
     /// Takes a report, and sends what can be sent.
@@ -27,6 +36,10 @@ impl Outbox {
             _ => self.waiting.push_back(report),
         }
         self.send();
+        if WAITING < self.waiting.len() {
+            self.lost += self.waiting.len() as u64;
+            self.waiting = VecDeque::from([RawInput::FocusLost]);
+        }
     }
 
     /// Sends what can be sent.
@@ -41,6 +54,18 @@ impl Outbox {
                 // The game is over: nobody listens any more.
                 Err(flume::TrySendError::Disconnected(_)) => self.waiting.clear(),
             }
+        }
+    }
+}
+
+impl Outbox {
+    /// What waits, and what was lost.
+    pub fn reading(&self) -> QueueReading {
+        QueueReading {
+            name: "reports".into(),
+            waiting: (self.channel.len() + self.waiting.len()) as u64,
+            room: self.channel.capacity().unwrap_or_default() as u64,
+            lost: self.lost,
         }
     }
 }
@@ -65,5 +90,20 @@ mod tests {
             outbox.send();
         }
         assert_eq!(heard, [moved(1.0), moved(5.0), press, moved(9.0)]);
+    }
+
+    #[test]
+    fn what_nobody_ever_takes_is_dropped_and_everything_is_let_go() {
+        let (sender, receiver) = flume::bounded(1);
+        let mut outbox = Outbox::new(sender);
+        let press = |down| RawInput::Button { button: Button::Left, down };
+        let presses = WAITING + 2;
+        for number in 0..presses {
+            outbox.say(press(number % 2 == 0));
+        }
+        assert_eq!(outbox.reading().lost, (presses - 1) as u64);
+        assert_eq!(receiver.try_recv(), Ok(press(true)));
+        outbox.send();
+        assert_eq!(receiver.try_recv(), Ok(RawInput::FocusLost));
     }
 }

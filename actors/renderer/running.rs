@@ -1,11 +1,14 @@
 //! One game beside its window: its thread, and the window's ends of what joins them.
 
 use super::felt::{FeltScreen, FeltSetup};
+use super::game_thread::GameThread;
 use super::heard::{HeardScreen, HeardSetup};
+use super::meters::MetersScreen;
 use super::outbox::Outbox;
 use super::stage::Stage;
 use crate::conductor::RunError;
 use crate::event_manager::Sink;
+use crate::meters::Meters;
 use hapticbillard::ids::GameKind;
 use hapticbillard::input::{HumanMode, HumanView, RawInput};
 use hapticbillard::physics::Snapshot;
@@ -15,10 +18,7 @@ use hapticbillard::renderer::{
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
-use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
-use std::sync::atomic::AtomicU64;
-use std::thread::{self, JoinHandle};
 use three_d::Context;
 
 /// Reports that may wait for the hand, which empties the channel every tick; see [`Outbox`].
@@ -56,6 +56,8 @@ pub struct Ports {
     pub world: triple_buffer::Input<Arc<Snapshot>>,
     /// Where events for the scoreboard go.
     pub sink: Sink,
+    /// What is measured while its panel is shown.
+    pub meters: Arc<Meters>,
 }
 
 /// Plays a game on a thread of its own.
@@ -81,6 +83,8 @@ pub struct Running {
     pub heard: Option<HeardScreen>,
     /// What the computer thinks is shown.
     pub shows_thoughts: bool,
+    /// What is measured.
+    pub meters: MetersScreen,
     view: triple_buffer::Output<HumanView>,
     world: triple_buffer::Output<Arc<Snapshot>>,
     mail: flume::Receiver<Delivered>,
@@ -92,8 +96,7 @@ pub struct Running {
     radii: Radii,
     table: Arc<Table>,
     felt: Option<FeltScreen>,
-    /// None when it is over.
-    thread: Option<JoinHandle<thread::Result<Result<Finished, RunError>>>>,
+    thread: GameThread,
 }
 
 impl Running {
@@ -112,23 +115,18 @@ impl Running {
         let (view_in, view) = triple_buffer::triple_buffer(&HumanView::default());
         let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
         let (mail_in, mail) = flume::bounded(MAIL);
-        let dropped = Arc::new(AtomicU64::new(0));
-        let sink = Sink { topics: Scoreboard::topics(), mail: mail_in, dropped };
-        let ports = Ports { raw, view: view_in, world: world_in, sink };
-        let thread = thread::Builder::new()
-            .name("game".into())
-            .spawn(move || {
-                let finished = panic::catch_unwind(AssertUnwindSafe(|| play(ports)));
-                ended();
-                finished
-            })
-            .map_err(|error| RunError::Start(format!("no thread for the game: {error}")))?;
+        let sink = Sink::new("window", Scoreboard::topics(), mail_in);
+        let meters = Arc::new(Meters::default());
+        let measured = meters.clone();
+        let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
+        let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
             stage: Stage::new(context, &setup.table),
             outbox: Outbox::new(raw_in),
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
             shows_thoughts: false,
+            meters: MetersScreen::new(meters),
             view,
             world,
             mail,
@@ -140,7 +138,7 @@ impl Running {
             radii: setup.radii,
             table: setup.table,
             felt: setup.felt.map(FeltScreen::new),
-            thread: Some(thread),
+            thread,
         })
     }
 
@@ -153,10 +151,7 @@ impl Running {
     /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
     /// before.
     pub fn join(&mut self) -> Option<Result<Finished, RunError>> {
-        match self.thread.take()?.join() {
-            Ok(Ok(finished)) => Some(finished),
-            Ok(Err(payload)) | Err(payload) => panic::resume_unwind(payload),
-        }
+        self.thread.join()
     }
 
     /// What the player sees and does.
@@ -171,7 +166,9 @@ impl Running {
 
     /// Takes what happened since the last picture.
     pub fn take_news(&mut self, now_s: f64) {
+        self.meters.look(&self.outbox);
         for delivered in self.mail.try_iter() {
+            self.meters.hear(&delivered);
             for stamped in delivered.events.iter() {
                 self.board.hear(&stamped.event);
             }
@@ -196,6 +193,7 @@ impl Running {
             heard.listen_at(&list.camera);
             heard.write(&mut written, &self.words, now_s);
         }
+        written.meters = self.meters.panel(&self.words, now_s);
         (list, written)
     }
 

@@ -119,7 +119,7 @@ impl Sound {
             let before = std::mem::replace(&mut self.ran_dry, ran_dry);
             seat.knobs().note_ran_dry(ran_dry.saturating_sub(before));
             if before == 0 && 0 < ran_dry {
-                log::warn!("{SOUND}: the device ran dry; how often is said at its end");
+                tracing::warn!("{SOUND}: the device ran dry; how often is said at its end");
             }
         }
         let in_ring = open.as_ref().map_or(self.dropped[0], |open| open.counters.dropped());
@@ -216,12 +216,12 @@ fn hear_line(ports: &mut Ports, teller: &mut Teller, told: News) -> Option<Healt
     *teller = Teller::new(teller.pace);
     match told {
         News::Open(open) => {
-            log::info!("{SOUND}: plays through {} at {} Hz", open.device, open.rate_hz);
+            tracing::info!("{SOUND}: plays through {} at {} Hz", open.device, open.rate_hz);
             ports.open = Some(open);
             ports.lost.take().map(|_| Health::ActorRestarted { actor: SOUND.into() })
         }
         News::Lost(reason) => {
-            log::warn!("{SOUND}: {reason}; the game goes on without it");
+            tracing::warn!("{SOUND}: {reason}; the game goes on without it");
             ports.open = None;
             ports.lost = Some(reason.clone());
             Some(Health::ActorFailed { actor: SOUND.into(), reason })

@@ -3,6 +3,7 @@
 use super::SOUND;
 use super::control::{Sound, Work};
 use super::seat::Seat;
+use crate::news::News;
 use hapticbillard::events::Health;
 use kameo::mailbox;
 use kameo::prelude::*;
@@ -32,9 +33,9 @@ pub type Joins = Box<dyn Fn(&ActorRef<Sound>) + Send + Sync>;
 
 /// Keeps a control at this line, tells `news` what the player should know, and `joins` of each
 /// control.
-pub fn keep(seat: Arc<Seat>, news: flume::Sender<Health>, joins: Joins) -> Keeper {
+pub fn keep(seat: Arc<Seat>, news: impl Into<News>, joins: Joins) -> Keeper {
     let (end, ended) = watch::channel(false);
-    let task = tokio::spawn(run(seat.clone(), news, joins, ended));
+    let task = tokio::spawn(run(seat.clone(), news.into(), joins, ended));
     Keeper { seat, end, task }
 }
 
@@ -48,12 +49,7 @@ impl Keeper {
     }
 }
 
-async fn run(
-    seat: Arc<Seat>,
-    news: flume::Sender<Health>,
-    joins: Joins,
-    mut ended: watch::Receiver<bool>,
-) {
+async fn run(seat: Arc<Seat>, news: News, joins: Joins, mut ended: watch::Receiver<bool>) {
     // None before the first that failed.
     let mut pause: Option<Duration> = None;
     let mut was_gone = false;
@@ -63,7 +59,7 @@ async fn run(
             let control = Sound::spawn_with_mailbox(control, mailbox::bounded(MAILBOX));
             joins(&control);
             if was_gone {
-                tell(&news, Health::ActorRestarted { actor: SOUND.into() });
+                news.tell(Health::ActorRestarted { actor: SOUND.into() });
             }
             let calls = call(&control, &news, &mut ended).await;
             if *ended.borrow() {
@@ -73,8 +69,8 @@ async fn run(
                 return;
             }
             let reason = "its control stopped; another one starts".to_string();
-            log::warn!("{SOUND}: {reason}");
-            tell(&news, Health::ActorFailed { actor: SOUND.into(), reason });
+            tracing::warn!("{SOUND}: {reason}");
+            news.tell(Health::ActorFailed { actor: SOUND.into(), reason });
             was_gone = true;
             pause = Some(match pause {
                 Some(before) if calls < SETTLED => (2 * before).min(PAUSE_MAX),
@@ -89,11 +85,7 @@ async fn run(
 }
 
 /// Calls the control until it is gone or the end comes; returns how often.
-async fn call(
-    control: &ActorRef<Sound>,
-    news: &flume::Sender<Health>,
-    ended: &mut watch::Receiver<bool>,
-) -> u32 {
+async fn call(control: &ActorRef<Sound>, news: &News, ended: &mut watch::Receiver<bool>) -> u32 {
     let mut calls = 0_u32;
     loop {
         tokio::select! {
@@ -102,11 +94,6 @@ async fn call(
         }
         let Ok(worked) = control.ask(Work).await else { return calls };
         calls = calls.saturating_add(1);
-        worked.0.into_iter().for_each(|health| tell(news, health));
+        worked.0.into_iter().for_each(|health| news.tell(health));
     }
-}
-
-/// News that nobody takes are dropped: the log has them.
-fn tell(news: &flume::Sender<Health>, health: Health) {
-    let _ = news.try_send(health);
 }

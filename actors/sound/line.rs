@@ -112,7 +112,7 @@ fn keep_open(mut wiring: Wiring, news: &flume::Sender<News>, ended: &flume::Rece
         };
         // It is said once that nothing is heard, however often it is tried.
         if is_told {
-            log::debug!("sound: {reason}");
+            tracing::debug!("sound: {reason}");
         } else if !ways.tell(News::Lost(reason)) {
             return;
         }
@@ -185,7 +185,7 @@ impl Banks {
             return bank.clone();
         }
         let bank = super::bank(self.folder.as_deref(), rate_hz).unwrap_or_else(|error| {
-            log::warn!("{}: {error}; everything is synthesised", super::SOUND);
+            tracing::warn!("{}: {error}; everything is synthesised", super::SOUND);
             Bank::default()
         });
         let bank = Arc::new(bank);
@@ -196,7 +196,7 @@ impl Banks {
 
 /// What a stream has counted, for the log.
 fn sum_up(counters: &Counters) {
-    log::info!(
+    tracing::info!(
         "sound: played {} frames; {} times the device ran dry, {} sounds were late, {} dropped; a \
          callback took {} us in the median, {} us in 99 of 100, {} us at most",
         counters.frames(),

@@ -91,7 +91,8 @@ impl Seat {
 
     /// What its control wants to be told, and where to.
     pub fn sink(&self) -> Sink {
-        Sink { topics: Foley::TOPICS, mail: self.mail.clone(), dropped: self.dropped.clone() }
+        let (mail, dropped) = (self.mail.clone(), self.dropped.clone());
+        Sink { name: super::SOUND, topics: Foley::TOPICS, mail, dropped }
     }
 
     /// Mail that found its queue full.

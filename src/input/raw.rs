@@ -86,6 +86,8 @@ pub enum Key {
     PageDown,
     /// F1: help.
     Help,
+    /// F3: what is measured of the runtime, for the window.
+    Meters,
     /// F12: the window is written into a picture.
     Picture,
 }

@@ -2,6 +2,7 @@
 
 use super::felt::FeltTool;
 use super::menu_panel::MenuPanel;
+use super::meters::MetersPanel;
 use super::overlay::FeltPanel;
 use super::scoreboard::Scoreboard;
 use super::thoughts::ThoughtsPanel;
@@ -90,6 +91,8 @@ pub struct Hud {
     pub felt: Option<FeltPanel>,
     /// What a computer player thought.
     pub thoughts: Option<ThoughtsPanel>,
+    /// What is measured of the runtime.
+    pub meters: Option<MetersPanel>,
     /// The menu over everything else.
     pub menu: Option<MenuPanel>,
 }

@@ -148,6 +148,12 @@ impl Scene {
         self.input.is_some() && !stands_in
     }
 
+    /// Whether whoever holds the stylus of a haptic device is at the table with nobody's mouse
+    /// beside it: alone with the balls, or in their turns.
+    pub fn is_led(&self) -> bool {
+        !self.has_hand() && (self.players.is_empty() || !self.human_players().is_empty())
+    }
+
     /// The players whose commands come from the input: at a mouse, or from a recording.
     pub fn human_players(&self) -> Vec<PlayerId> {
         let ids = [PlayerId::ONE, PlayerId::TWO];

@@ -28,6 +28,8 @@ mod input;
 mod lies;
 /// Menus, and whole games from the main menu and back.
 mod menu;
+/// The panel of the runtime.
+mod meters;
 /// Minigolf: another ground, ball and tip.
 mod minigolf;
 /// The stepper: accounts, motion, convergence, extremes, the paper's faults, same bits.

@@ -32,7 +32,7 @@ const LAYERS: [&[&str]; 17] = [
 
 /// The files of `actors` and the core in `src` that each of them runs; those without a core serve
 /// several.
-const ACTORS: [(&str, Option<&str>); 28] = [
+const ACTORS: [(&str, Option<&str>); 34] = [
     ("ai", Some("ai")),
     ("conductor", Some("tick")),
     ("event_manager", Some("event_manager")),
@@ -49,6 +49,7 @@ const ACTORS: [(&str, Option<&str>); 28] = [
     ("build", None),
     ("cli", None),
     ("cpu_time", None),
+    ("crew", None),
     ("stopwatch", None),
     ("error", None),
     ("event_log", None),
@@ -57,9 +58,14 @@ const ACTORS: [(&str, Option<&str>); 28] = [
     ("histogram", None),
     ("kept", None),
     ("lib", None),
+    ("logging", None),
+    ("meters", None),
+    ("news", None),
+    ("shot", None),
     ("main", None),
     ("pacer", None),
     ("runtime", None),
+    ("soak", None),
     ("slots", None),
 ];
 
@@ -75,10 +81,11 @@ fn root() -> &'static Path {
 /// Every text file of the repository that somebody wrote, with its path from the root.
 fn files() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = ["src", "actors", "assets", "config", "tests", ".ci"]
-        .iter()
-        .map(|folder| root().join(folder))
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        ["src", "actors", "assets", "config", "tests", ".ci", ".github"]
+            .iter()
+            .map(|folder| root().join(folder))
+            .collect();
     let mut paths: Vec<PathBuf> = ["Cargo.toml", "README.md", "Makefile", "clippy.toml"]
         .iter()
         .map(|file| root().join(file))

@@ -65,6 +65,10 @@ fn every_command_teaches_with_an_example() {
         "validate",
         "report",
         "learn",
+        "soak",
+        "doctor",
+        "completions",
+        "man",
     ];
     for command in commands {
         let output = program(&[command, "--help"]);

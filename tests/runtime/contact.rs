@@ -7,11 +7,12 @@ use hapticbillard::haptic::{Device, DeviceSpec, DeviceState, DeviceStatus, Force
 use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
+use hapticbillard_actors::crew::{Crew, Fault, Roster};
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{Asked, Core, Opened, Plan, Seat, Signs, Started};
 use hapticbillard_actors::pacer::{StopFlag, Tempo};
-use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
+use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
@@ -145,7 +146,7 @@ impl FrameSource for Stalling {
 struct Game {
     wires: Arc<Wires>,
     stall: Arc<AtomicBool>,
-    joined: flume::Receiver<Member>,
+    roster: Roster,
     listener: Hears,
     stop: StopFlag,
     thread: Option<JoinHandle<Result<Finished, RunError>>>,
@@ -171,7 +172,7 @@ impl Game {
         };
         let Started { seat, world, .. } = Seat::start(plan).unwrap();
         assert!(wires.signs.set(seat.signs().clone()).is_ok());
-        let (tells, joined) = flume::unbounded();
+        let (crew, roster) = Crew::watched();
         let (stop, stall) = (StopFlag::default(), Arc::new(AtomicBool::new(false)));
         let listener = Hears::of(Topic::Health);
         let setup = Setup {
@@ -181,13 +182,13 @@ impl Game {
             observers: vec![Box::new(listener.clone())],
             haptic: Some(Felt { seat, world }),
             stop: stop.clone(),
-            crew: Crew(Some(tells)),
+            crew,
             workers: 2,
             ..Setup::headless(Tick(600_000))
         };
         let cast = stage.cast().unwrap();
         let thread = std::thread::spawn(move || runtime::run(cast, setup));
-        let game = Game { wires, stall, joined, listener, stop, thread: Some(thread) };
+        let game = Game { wires, stall, roster, listener, stop, thread: Some(thread) };
         game.wait_for_lean();
         game
     }
@@ -261,8 +262,7 @@ impl Game {
 #[test]
 fn a_killed_control_takes_the_force_away_and_the_next_one_brings_it_back_softly() {
     let game = Game::start();
-    let control = game.joined.iter().find(|member| member.name == "haptic").unwrap();
-    control.kill();
+    assert_eq!(game.roster.strike("haptic", Fault::Kill), 1);
     game.wait_for_nothing();
     game.wait_for_word("its control stopped");
     game.comes_back_softly();

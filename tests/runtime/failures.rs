@@ -32,13 +32,14 @@ use hapticbillard::renderer::{Hud, Scoreboard, Words};
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::tick::{Delivered, End, Frame, FrameSource, Inflow, Outcome, Pace, Participant};
 use hapticbillard::units::Tick;
+use hapticbillard_actors::crew::{Crew, Fault, Roster};
 use hapticbillard_actors::event_manager::Sink;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{Asked, Core, Plan, Seat, Started};
 use hapticbillard_actors::pacer::Tempo;
 use hapticbillard_actors::recorder::Recorder;
-use hapticbillard_actors::runtime::{self, Crew, Felt, InputPort, Member, Setup};
+use hapticbillard_actors::runtime::{self, Felt, InputPort, Setup};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
@@ -49,8 +50,7 @@ struct Killer {
     every: u32,
     heard: u32,
     victim: &'static str,
-    joined: flume::Receiver<Member>,
-    known: Vec<Member>,
+    roster: Roster,
     killed: Arc<AtomicU32>,
 }
 
@@ -71,12 +71,8 @@ impl Participant for Killer {
         for _ in delivered.events.iter() {
             self.heard += 1;
             if self.heard.is_multiple_of(self.every) {
-                self.known.extend(self.joined.try_iter());
-                let victims = self.known.drain(..).filter(|member| member.name == self.victim);
-                for victim in victims {
-                    victim.kill();
-                    self.killed.fetch_add(1, Ordering::SeqCst);
-                }
+                let killed = self.roster.strike(self.victim, Fault::Kill);
+                self.killed.fetch_add(killed as u32, Ordering::SeqCst);
             }
         }
         Outcome::default()
@@ -92,13 +88,12 @@ fn with_killer(
     every: u32,
     setup: Setup,
 ) -> (Setup, Arc<AtomicU32>) {
-    let (tells, joined) = flume::unbounded();
+    let (crew, roster) = Crew::watched();
     let killed = Arc::new(AtomicU32::new(0));
-    let (known, heard) = (Vec::new(), 0);
-    let killer = Killer { topic, every, heard, victim, joined, known, killed: killed.clone() };
+    let killer = Killer { topic, every, heard: 0, victim, roster, killed: killed.clone() };
     let Setup { mut observers, .. } = setup;
     observers.push(Box::new(killer));
-    (Setup { observers, crew: Crew(Some(tells)), ..setup }, killed)
+    (Setup { observers, crew, ..setup }, killed)
 }
 
 /// What the player was told of an actor: whether it is there.
@@ -197,8 +192,7 @@ fn whoever_only_listens_can_go_and_the_game_is_the_same() {
     // A window that is gone, and one that takes nothing.
     let (mail, gone) = flume::bounded(4);
     let (lagging, _kept) = flume::bounded(4);
-    let sinks =
-        [mail, lagging].map(|mail| Sink { topics: Topics::ALL, mail, dropped: Arc::default() });
+    let sinks = [mail, lagging].map(|mail| Sink::new("test", Topics::ALL, mail));
     let dropped = sinks[1].dropped.clone();
     drop(gone);
     let sinks = Vec::from(sinks);
@@ -217,7 +211,7 @@ fn what_is_refused_stands_in_the_players_window_with_what_would_help() {
     let setup = Setup {
         pace: Pace::EveryTick,
         tempo: Tempo::RealTime(1.0),
-        sinks: vec![Sink { topics: Scoreboard::topics(), mail, dropped: Arc::default() }],
+        sinks: vec![Sink::new("test", Scoreboard::topics(), mail)],
         haptic: Some(Felt { seat, world }),
         ..Setup::headless(Tick(300))
     };

@@ -193,7 +193,7 @@ fn a_device_lost_in_an_armed_stroke_pauses_the_mouse_strikes_the_device_comes_ba
     let (person, shown) = person(&stage);
     let (health, menus) = (Hears::of(Topic::Health), Hears::of(Topic::Menu));
     let (mail, facts) = flume::unbounded::<Delivered>();
-    let sink = Sink { topics: Topics::of(&[Topic::CueBallStruck]), mail, dropped: Arc::default() };
+    let sink = Sink::new("test", Topics::of(&[Topic::CueBallStruck]), mail);
     let setup = Setup {
         pace: Pace::EveryTick,
         input: InputPort::Hand(Box::new(person)),

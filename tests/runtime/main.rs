@@ -3,6 +3,8 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// The program away from its source.
+mod anywhere;
 /// Many shots at once.
 mod batch;
 /// Bytes from outside, as the fuzz tests of the core take them.
@@ -19,6 +21,8 @@ mod contact;
 mod counting;
 /// Recordings of haptic devices as files.
 mod device_recordings;
+/// What the program says of a machine.
+mod doctor;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;
@@ -36,6 +40,16 @@ mod haptic;
 mod hearing;
 /// What `--json` prints, and what options change.
 mod json;
+/// The chapter of what is left out.
+mod left_out;
+/// The licences of what is linked.
+mod licences;
+/// Completions and manual pages.
+mod manual;
+/// Full queues and slow listeners.
+mod load;
+/// What the program says about itself, and where.
+mod logging;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
@@ -59,6 +73,8 @@ mod rule_actor;
 mod same_bits;
 /// The servo's thread, and the actor that controls it.
 mod servo;
+/// Disturbed games, held against undisturbed ones.
+mod soak;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
 /// What libFuzzer found among sound files.
@@ -76,6 +92,9 @@ mod supervision;
 /// The progress bar.
 #[cfg(unix)]
 mod terminal;
+/// A break of a thousand balls.
+#[path = "../thousand.rs"]
+mod thousand;
 /// Tournaments and matches.
 mod tournament;
 /// A whole game in a window.

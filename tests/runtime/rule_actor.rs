@@ -86,7 +86,7 @@ impl Pair {
         if rng.random_bool(0.1) {
             events.shuffle(rng);
         }
-        Mail(Delivered { tick: Tick(tick), events: events.into(), table: Default::default() })
+        Delivered { tick: Tick(tick), events: events.into(), table: Default::default() }.into()
     }
 
     /// Sends the mail both ways.
@@ -157,7 +157,7 @@ async fn a_full_mailbox_refuses_and_the_actor_lives_on() {
         let stamp = Stamp { tick: Tick(1), source: Source::Physics, sequence: 0 };
         let event = Event::Fact(Fact { time_s: 0.0, kind });
         let events = [Stamped { stamp, event }].into();
-        Mail(Delivered { tick: Tick(1), events, table: Default::default() })
+        Mail::from(Delivered { tick: Tick(1), events, table: Default::default() })
     };
     let settled = || fact(FactKind::Settled { snookered: false, cue_in_rack: false });
     // On one thread the actor does not run before somebody waits for it.

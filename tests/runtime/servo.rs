@@ -401,7 +401,7 @@ fn a_game_feels_its_balls_and_tells_the_player_what_is_wrong() {
     plan.asked = wired.asked;
     let Started { seat, world, .. } = Seat::start(plan).unwrap();
     let (mail, heard) = flume::unbounded::<Delivered>();
-    let sink = Sink { topics: Topics::of(&[Topic::Health]), mail, dropped: Arc::default() };
+    let sink = Sink::new("test", Topics::of(&[Topic::Health]), mail);
     let setup = Setup {
         pace: Pace::EveryTick,
         tempo: Tempo::RealTime(1.0),
@@ -494,7 +494,7 @@ fn broken(file: &Path, device: impl FnOnce(Opened) -> Opened) -> Broken {
     let hand = InStep { body, control, table, world, stylus, felt: felt.clone() };
     let verdicts = Hears::of(Topic::Verdict);
     let (mail, facts) = flume::unbounded::<Delivered>();
-    let sink = Sink { topics: Topics::of(&[Topic::CueBallStruck]), mail, dropped: Arc::default() };
+    let sink = Sink::new("test", Topics::of(&[Topic::CueBallStruck]), mail);
     let setup = Setup {
         pace: Pace::EveryTick,
         input: InputPort::StandIn(Box::new(hand)),

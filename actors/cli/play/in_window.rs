@@ -189,7 +189,7 @@ impl Host for House<'_> {
             false => (None, None),
         };
         self.record = recording(self.args, is_first);
-        let mut felt = felt(&self.stage, !self.stage.scene.has_hand(), telemetry)?;
+        let mut felt = felt(&self.stage, self.stage.scene.is_led(), telemetry)?;
         self.telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
         let (prepared, recorder) =
             prepared(&self.stage, None, felt, self.record.clone(), device, *speed)?;
@@ -218,7 +218,7 @@ impl Host for House<'_> {
             self.out.flush()?;
         }
         if let Some(Recorded { readings, lost }) = device? {
-            log::info!("recorded {readings} readings of the haptic device, {lost} lost");
+            tracing::info!("recorded {readings} readings of the haptic device, {lost} lost");
         }
         telemetry.map(|_| ())
     }
@@ -294,10 +294,10 @@ fn prepared(
     let mouse = plan.as_mut().and_then(|plan| plan.opened.mouse.take());
     let (plan, recorder) = tapped(plan, record_device)?;
     let has_cue = stage.scene.cue.is_some();
-    let players = stage.scene.human_players();
+    let (players, is_led) = (stage.scene.human_players(), stage.scene.is_led());
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let play = move |ports: Ports| {
-        let Ports { raw, view, world, sink } = ports;
+        let Ports { raw, view, world, sink, meters } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
         let (haptic, stylus) = match started {
@@ -317,7 +317,7 @@ fn prepared(
                 };
                 InputPort::Hand(Box::new(hand))
             }
-            None if haptic.is_some() => {
+            None if haptic.is_some() && is_led => {
                 let human = Human::new(players, table)
                     .with_ball_radius(radii.of(BallId::CUE))
                     .with_tip_radius(tip_radius_m);
@@ -344,6 +344,7 @@ fn prepared(
             physics_thread,
             workers: 2,
             stop,
+            meters: Some(meters),
             ..Setup::headless(LIMIT)
         };
         runtime::run(cast, setup)
@@ -365,7 +366,7 @@ fn heard(
             Ok((Some(Heard { seat, world }), Some(HeardSetup { listener, knobs })))
         }
         Err(error) => {
-            log::warn!("{error}; the game is played without sound");
+            tracing::warn!("{error}; the game is played without sound");
             Ok((None, None))
         }
     }

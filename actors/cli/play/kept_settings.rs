@@ -17,7 +17,7 @@ impl Kept {
         match settings_file() {
             Ok(path) => Self::load_from(path),
             Err(error) => {
-                log::warn!("nothing that is set is kept: {error}");
+                tracing::warn!("nothing that is set is kept: {error}");
                 (Settings::default(), Kept(None))
             }
         }
@@ -35,11 +35,11 @@ impl Kept {
         };
         match put_aside(&path) {
             Ok(aside) => {
-                log::warn!("{problem}; it is {} now", aside.display());
+                tracing::warn!("{problem}; it is {} now", aside.display());
                 (Settings::default(), Kept(Some(path)))
             }
             Err(error) => {
-                log::warn!("{problem}; it stays, and nothing that is set is kept: {error}");
+                tracing::warn!("{problem}; it stays, and nothing that is set is kept: {error}");
                 (Settings::default(), Kept(None))
             }
         }
@@ -49,7 +49,7 @@ impl Kept {
     pub fn keep(&self, settings: &Settings) {
         let Some(path) = &self.0 else { return };
         if let Err(error) = Self::write(path, settings) {
-            log::warn!("what is set is not kept: {error}");
+            tracing::warn!("what is set is not kept: {error}");
         }
     }
 

@@ -159,7 +159,7 @@ impl Talk {
         }
         talk.shared.usual_ns.store(talk.shared.delays.quantile(0.5), Ordering::Release);
         let (name, format) = (talk.arm.name(), talk.arm.format());
-        log::info!("Haply at {address}: arm {name}, {format:?}, {:?}", talk.spec());
+        tracing::info!("Haply at {address}: arm {name}, {format:?}, {:?}", talk.spec());
         Ok(talk)
     }
 
@@ -265,7 +265,7 @@ impl Talk {
             "the connection to the Haply service at {address} is lost ({reason}); start the \
              service, then the game again"
         );
-        log::warn!("{why}");
+        tracing::warn!("{why}");
         self.tell(Some(why));
         let state = self.state.unwrap_or_default();
         self.states.write(DeviceState { status: DeviceStatus::Lost, ..state });

@@ -57,7 +57,7 @@ impl Ready {
         ] {
             hd.switch(guard, true);
             if let Some(code) = hd.error() {
-                log::warn!("{} has no {name}: {}", session.library(), short(code));
+                tracing::warn!("{} has no {name}: {}", session.library(), short(code));
             }
         }
         let call = called.call().clone();
@@ -151,7 +151,7 @@ impl Drop for Running {
             drop(unsafe { Box::from_raw(self.called) });
         } else {
             // It hangs in the library, which may still come back to it.
-            log::error!("{} does not end its callback", self.session.library());
+            tracing::error!("{} does not end its callback", self.session.library());
         }
     }
 }

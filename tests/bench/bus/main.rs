@@ -8,6 +8,9 @@
 //! within one run mean anything.
 
 mod common;
+mod latency;
+#[path = "../../thousand.rs"]
+mod thousand;
 
 use common::{Check, PER_TICK, SUBSCRIBERS, fact, on_runtime, stamped};
 use hapticbillard::event_manager::EventManager as Core;
@@ -66,7 +69,7 @@ fn sinks(events: u64) -> Duration {
         for _ in 0..SUBSCRIBERS {
             // Large enough to lose nothing: a sink that lags loses its own mail.
             let (mail, inbox) = flume::bounded::<Delivered>((events / PER_TICK) as usize);
-            sinks.push(Sink { topics: Topics::ALL, mail, dropped: dropped.clone() });
+            sinks.push(Sink { name: "test", topics: Topics::ALL, mail, dropped: dropped.clone() });
             tasks.push(tokio::spawn(async move {
                 let mut check = Check::default();
                 while let Ok(mail) = inbox.recv_async().await {
@@ -375,4 +378,5 @@ fn main() {
             median / 1e6
         );
     }
+    latency::table(rounds);
 }
