@@ -44,12 +44,12 @@ mod json;
 mod left_out;
 /// The licences of what is linked.
 mod licences;
-/// Completions and manual pages.
-mod manual;
 /// Full queues and slow listeners.
 mod load;
 /// What the program says about itself, and where.
 mod logging;
+/// Completions and manual pages.
+mod manual;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
