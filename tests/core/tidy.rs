@@ -93,8 +93,10 @@ fn files() -> Vec<(String, String)> {
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             let path = entry.path();
-            // A crate of its own, outside the workspace, has its build in its folder.
-            let is_build = path.file_name().is_some_and(|name| name == "target");
+            // A crate of its own, outside the workspace, has its build in its folder, and what
+            // its fuzzers write.
+            let built = ["target", "work", "artifacts"];
+            let is_build = path.file_name().is_some_and(|name| built.iter().any(|b| name == *b));
             if path.is_dir() && !is_build {
                 folders.push(path);
             } else {

@@ -28,7 +28,10 @@ pub fn run(data: &[u8]) {
         Ok(table) => table,
         Err(error) => return check_line(&error.to_string()),
     };
-    HapticMesh::of(&table);
+    // Its millions of cells take much longer than all the rest.
+    if choice / 6 % 2 == 0 {
+        HapticMesh::of(&table);
+    }
     match play(&scene, &table) {
         Ok(is_sound) => assert!(is_sound),
         Err(line) => check_line(&line),
