@@ -39,6 +39,8 @@ mod learn;
 
 mod soak;
 
+mod doctor;
+
 mod completions;
 
 mod man;
@@ -94,6 +96,7 @@ enum Command {
     Report(report::ReportArgs),
     Learn(learn::LearnArgs),
     Soak(soak::SoakArgs),
+    Doctor(doctor::DoctorArgs),
     Completions(completions::CompletionsArgs),
     Man(man::ManArgs),
 }
@@ -156,6 +159,7 @@ pub fn run() -> ExitCode {
         Command::Report(args) => report::run(&args, &mut out),
         Command::Learn(args) => learn::run(&args, &mut out),
         Command::Soak(args) => soak::run(&args, &mut out),
+        Command::Doctor(args) => doctor::run(&args, &mut out),
         Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
         Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };

@@ -38,7 +38,7 @@ mod window;
 
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
-pub use offscreen::{pixels, written};
+pub use offscreen::{card, pixels, written};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
 pub use window::{Backdrop, Host, NoWindow, WindowSetup, show};

@@ -113,7 +113,8 @@ pub fn run(args: &SoakArgs, out: &mut dyn Write) -> Result<Status, Error> {
         let base = Setup::headless(LIMIT);
         let played = soak::play(&stage, &reference, &trial, &file, base);
         told.game(&Game { number, workers, reference: &reference, played: &played }, out)?;
-        moments.extend(Use::now());
+        let least = moments.iter().map(|moment: &Use| moment.threads).min();
+        moments.extend(Use::settled(least.unwrap_or(usize::MAX)));
         match args.games {
             Some(_) => bar.inc(1),
             None => bar.set_position(begin.elapsed().as_secs()),

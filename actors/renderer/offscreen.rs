@@ -7,6 +7,7 @@ use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use khronos_egl as egl;
 use std::sync::Arc;
+use three_d::context::{HasContext, RENDERER};
 use three_d::*;
 
 /// EGL_PLATFORM_SURFACELESS_MESA.
@@ -64,6 +65,17 @@ fn context() -> Result<Context, NoPicture> {
         })
     };
     Context::from_gl_context(Arc::new(gl)).map_err(|error| failed("OpenGL", error))
+}
+
+/// What draws, by its own name.
+///
+/// # Errors
+/// [`NoPicture`] if this machine has no OpenGL.
+#[allow(unsafe_code)]
+pub fn card() -> Result<String, NoPicture> {
+    let context = context()?;
+    // SAFETY: the context was just made current on this thread; reading a string changes nothing.
+    Ok(unsafe { context.get_parameter_string(RENDERER) })
 }
 
 /// One picture, rows from the top, red, green, blue and opacity in each pixel; nothing is written

@@ -3,6 +3,7 @@
 use crate::files;
 use serde::Serialize;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// What a process uses at a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -24,6 +25,24 @@ impl Use {
         // Reading the folder is one handle more.
         let handles = count("/proc/self/fd")?.saturating_sub(1);
         Some(Use { memory_kib, threads, handles })
+    }
+}
+
+/// How long threads may take to end that have nothing more to do.
+const SETTLES: Duration = Duration::from_secs(2);
+
+impl Use {
+    /// What this process uses when it has no more than `least` threads, or, if it keeps more, after
+    /// a while.
+    pub fn settled(least: usize) -> Option<Self> {
+        let begin = Instant::now();
+        loop {
+            let now = Self::now()?;
+            if now.threads <= least || SETTLES <= begin.elapsed() {
+                return Some(now);
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 }
 

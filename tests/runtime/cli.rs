@@ -65,6 +65,8 @@ fn every_command_teaches_with_an_example() {
         "validate",
         "report",
         "learn",
+        "soak",
+        "doctor",
         "completions",
         "man",
     ];

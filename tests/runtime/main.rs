@@ -16,6 +16,8 @@ mod contact;
 mod counting;
 /// Recordings of haptic devices as files.
 mod device_recordings;
+/// What the program says of a machine.
+mod doctor;
 /// Random facts for the referee, as the fuzz tests of the core make them.
 #[path = "../fuzz/facts.rs"]
 mod facts;

@@ -98,16 +98,21 @@ fn a_match_that_is_killed_leaves_recordings_that_replay() {
 }
 
 #[test]
-fn a_game_that_gets_an_interrupt_ends_in_order_with_a_whole_recording() {
-    let file = folder("play_interrupted").join("game.jsonl");
+fn a_game_that_is_asked_to_end_ends_in_order_with_a_whole_recording() {
+    for (signal, name) in [(Signal::INT, "int"), (Signal::TERM, "term"), (Signal::HUP, "hup")] {
+        ends_in_order(signal, &folder("play_interrupted").join(format!("{name}.jsonl")));
+    }
+}
+
+fn ends_in_order(signal: Signal, file: &Path) {
     let draft = file.with_extension("jsonl.part");
     let mut child = start(&["play", "--seed", "5", "--record", file.to_str().unwrap()]);
-    wait_for(&file, &draft, 3, &mut child);
-    send(&child, Signal::INT);
+    wait_for(file, &draft, 3, &mut child);
+    send(&child, signal);
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{output:?}");
     let said = text(&output.stdout);
     assert!(said.contains("the game was ended") || said.contains(" wins "), "{said}");
     assert!(!draft.exists());
-    assert_eq!(verify(&file)["complete"], true);
+    assert_eq!(verify(file)["complete"], true);
 }

@@ -19,6 +19,7 @@ use hapticbillard_actors::runtime::{Felt, Setup};
 use hapticbillard_actors::soak::{self, Ended, FaultKind, Trial, Victim, Wrong, faults};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
@@ -127,7 +128,7 @@ fn stage(seed: u64) -> Stage {
 
 /// A game of some seconds of real time with sound and a hand, disturbed. How it ended, and what
 /// of sound and hand was struck.
-fn felt_and_heard(seed: u64) -> (Ended, Vec<(Victim, FaultKind)>) {
+fn felt_and_heard(seed: u64, folder: &Path) -> (Ended, Vec<(Victim, FaultKind)>) {
     let stage = stage(seed);
     let limit = Tick(40_000);
     let reference = soak::reference(&stage, seed, limit).unwrap();
@@ -156,7 +157,7 @@ fn felt_and_heard(seed: u64) -> (Ended, Vec<(Victim, FaultKind)>) {
         is_jostled: false,
         faults: faults(seed, reference.seen.batches, &everybody.concat()),
     };
-    let file = folder("felt_and_heard").join(format!("{seed}.jsonl"));
+    let file = folder.join(format!("{seed}.jsonl"));
     let played = soak::play(&stage, &reference, &trial, &file, setup);
     drop(running);
     let ended = played.ended.unwrap_or_else(|wrong| panic!("game {seed}: {wrong}"));
@@ -176,7 +177,7 @@ fn felt_and_heard(seed: u64) -> (Ended, Vec<(Victim, FaultKind)>) {
 #[test]
 fn games_with_sound_and_a_hand_survive_the_same_and_nothing_pushes_alone() {
     let count: u64 = std::env::var("FAULTS").map_or(6, |text| text.parse().unwrap());
-    let next = AtomicU64::new(0);
+    let (next, folder) = (AtomicU64::new(0), folder("felt_and_heard"));
     let (mut same, mut struck) = (0, Vec::new());
     // They mostly wait for the clock.
     std::thread::scope(|scope| {
@@ -187,7 +188,7 @@ fn games_with_sound_and_a_hand_survive_the_same_and_nothing_pushes_alone() {
                 if count <= seed {
                     return done;
                 }
-                done.push(felt_and_heard(seed));
+                done.push(felt_and_heard(seed, &folder));
             }
         };
         let threads: Vec<_> = (0..3).map(|_| scope.spawn(work)).collect();
