@@ -27,7 +27,15 @@ struct Build {
     features: String,
     /// Packages that are linked.
     crates: u32,
-    /// Of the stripped program.
+    /// The program; none if it was not built.
+    program: Option<Program>,
+}
+
+/// A program that was built and run.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Program {
+    /// Stripped.
     bytes: u64,
     /// A headless game, ready for its first tick.
     headless_start: Used,
@@ -67,7 +75,7 @@ pub fn section(text: &mut String, builds: &Builds) {
          three included. Times are processor times of whole processes, medians of {}: user time, \
          and in brackets all of it. A headless start makes table, simulation, referee, players and \
          actors of `eight_ball_headless` and ends before the first tick; one ball is `simulate \
-         --scene one_ball`; a game is `match --games 1`.\n",
+         --scene one_ball`; a game is `match --games 1`. What was not built has no figures.\n",
         builds.starts
     );
     let _ = writeln!(
@@ -77,16 +85,19 @@ pub fn section(text: &mut String, builds: &Builds) {
     );
     for build in &builds.builds {
         let ms = |used: &Used| format!("{:.0} ({:.0})", used.user_ms, used.cpu_ms);
+        let Build { features, crates, program } = build;
+        let Some(program) = program else {
+            let _ = writeln!(text, "| {features} | {crates} | - | - | - | - | - |");
+            continue;
+        };
         let _ = writeln!(
             text,
-            "| {} | {} | {:.1} | {} | {} | {} | {:.1} |",
-            build.features,
-            build.crates,
-            build.bytes as f64 / 1e6,
-            ms(&build.headless_start),
-            ms(&build.one_ball),
-            ms(&build.game),
-            build.game.peak_kib as f64 / 1024.0
+            "| {features} | {crates} | {:.1} | {} | {} | {} | {:.1} |",
+            program.bytes as f64 / 1e6,
+            ms(&program.headless_start),
+            ms(&program.one_ball),
+            ms(&program.game),
+            program.game.peak_kib as f64 / 1024.0
         );
     }
     let _ = writeln!(text);
