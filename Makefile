@@ -5,8 +5,11 @@
 PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcursor1 libxi6 \
 	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev
 CARGO := cargo
+# How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
+MINUTES ?= 10
 
-.PHONY: play test report window peers setup early featureless lints everything documents package
+.PHONY: play test report window hour peers fuzz builds licences deb setup early featureless lints \
+	everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -14,16 +17,51 @@ play: setup
 # Measures everything of tests/report anew: about ten minutes of a quiet machine.
 report:
 	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
-	  report --out tests/report
+	  report --builds tests/report/builds.json --out tests/report
 
 # A whole game with real mouse and key events, in real time on a virtual display.
 window: setup
 	WINDOW_TESTS=1 $(CARGO) test --locked --package hapticbillard-actors --test runtime whole_game:: \
 	  -- --nocapture
 
+# An hour of games in a window, with sound to nobody and a simulated hand: nothing may grow.
+hour: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	tests/soak/window.sh target/release/hapticbillard 60 target/hour
+
 # Other programs on the report's cases, and the report with them: see tests/peers/README.md.
 peers:
 	python3 tests/peers/run.py
+
+# What each feature adds to the program, for the report: see tests/builds/run.py.
+builds:
+	python3 tests/builds/run.py
+	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
+	  report --left-out --builds tests/report/builds.json --out tests/report
+
+# Lists the licences of all libraries anew.
+licences:
+	UPDATE_LICENCES=1 $(CARGO) test --quiet --locked --package hapticbillard-actors --test runtime \
+	  licences::
+
+# The Debian package, into target/debian; needs `cargo install --locked cargo-deb`.
+DEB := target/release/deb
+deb: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	rm -rf $(DEB)
+	target/release/hapticbillard man --out $(DEB)/man
+	for shell in bash zsh fish; do \
+	  target/release/hapticbillard completions $$shell > $(DEB)/hapticbillard.$$shell || exit 1; \
+	done
+	python3 actors/debian/texts.py $(DEB)/third-party
+	cp actors/CHANGELOG.md $(DEB)/changelog
+	gzip -9n $(DEB)/changelog $(DEB)/third-party $(DEB)/man/*
+	$(CARGO) deb --locked --package hapticbillard-actors --no-build --strip
+
+# Looks for bytes that break what reads them, so many minutes each target: see
+# tests/fuzz/coverage/README.md.
+fuzz:
+	MINUTES=$(MINUTES) CARGO=$(CARGO) tests/fuzz/coverage/run.sh $(TARGETS)
 
 # Fails early: what is cheap and what breaks most often comes first.
 test: early setup featureless lints everything documents package

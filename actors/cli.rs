@@ -41,7 +41,13 @@ mod soak;
 
 mod doctor;
 
-use clap::{ArgAction, Parser, Subcommand, ValueEnum};
+mod completions;
+
+mod man;
+
+use clap::error::ErrorKind as WrongUsage;
+use clap::parser::ValueSource;
+use clap::{ArgAction, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::logging::{self, LogFile};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -69,7 +75,6 @@ Exit codes: 0 success, 1 a check failed, 2 wrong usage or input.";
 
 #[derive(Parser)]
 #[command(name = "hapticbillard", version, about = ABOUT, after_help = EXAMPLES)]
-#[command(args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -104,6 +109,8 @@ enum Command {
     Learn(learn::LearnArgs),
     Soak(soak::SoakArgs),
     Doctor(doctor::DoctorArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 /// Which runtime plays a game; both give the same output.
@@ -134,9 +141,28 @@ pub enum Status {
     CheckFailed,
 }
 
+/// The command line. What is said of a game stands behind `play` or alone; what every command
+/// takes stands anywhere, which clap's own `args_conflicts_with_subcommands` does not allow.
+fn arguments() -> Cli {
+    let mut command = Cli::command();
+    let matches = command.clone().get_matches();
+    if let Some(name) = matches.subcommand_name() {
+        let is_given = |id: &&str| matches.value_source(id) == Some(ValueSource::CommandLine);
+        let of_play = command.get_arguments().filter(|argument| !argument.is_global_set());
+        let strays = of_play.filter(|argument| is_given(&argument.get_id().as_str()));
+        let stray = strays.filter_map(|argument| argument.get_long()).next();
+        if let Some(stray) = stray {
+            let line =
+                format!("--{stray} is for a game: write it behind {name} if it belongs there");
+            command.error(WrongUsage::ArgumentConflict, line).exit();
+        }
+    }
+    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+}
+
 /// Reads the command line and does what it says.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = arguments();
     let command = cli.command.unwrap_or(Command::Play(cli.play));
     let file = match (cli.log_file, &command) {
         (Some(path), _) => LogFile::At(path),
@@ -163,6 +189,8 @@ pub fn run() -> ExitCode {
         Command::Learn(args) => learn::run(&args, &mut out),
         Command::Soak(args) => soak::run(&args, &mut out),
         Command::Doctor(args) => doctor::run(&args, &mut out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), &mut out),
+        Command::Man(args) => man::run(&args, Cli::command(), &mut out),
     };
     match result.and_then(|status| Ok(out.flush().map(|()| status)?)) {
         Ok(Status::Success) => ExitCode::SUCCESS,

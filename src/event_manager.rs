@@ -77,6 +77,23 @@ pub struct Delivery {
 }
 
 /// The event manager's core.
+///
+/// ```
+/// use hapticbillard::event_manager::{EventManager, Publication};
+/// use hapticbillard::events::{Command, Event, Source, Topic, Topics};
+/// use hapticbillard::units::Tick;
+///
+/// let mut events = EventManager::new();
+/// let listener = events.subscribe(Topics::of(&[Topic::Command]));
+/// let lift = Event::Command(Command::LiftCue);
+/// let later = Publication { event: lift, delay_ticks: 5, label: None };
+/// events.publish(Source::Input, Tick(1), later)?;
+///
+/// assert!(events.seal(Tick(5)).is_empty());
+/// let mail = events.seal(Tick(6));
+/// assert_eq!((mail.len(), mail[0].to), (1, listener));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Default)]
 pub struct EventManager {
     subscribers: Vec<Subscriber>,

@@ -47,6 +47,8 @@ mod recording;
 
 mod inverse3;
 
+pub mod openhaptics;
+
 mod rehearsal;
 
 pub mod telemetry;

@@ -74,6 +74,31 @@ pub struct Lockstep<'a> {
 ///
 /// # Errors
 /// [`LockstepError`] if the simulation fails, the queue is full or a replay diverges.
+///
+/// # Examples
+/// Two computer players, a referee and a table; the scene says it all.
+///
+/// ```
+/// use hapticbillard::cast::Cast;
+/// use hapticbillard::lockstep::{Setup, run};
+/// use hapticbillard::scene::Scene;
+/// use hapticbillard::shipped;
+/// use hapticbillard::tally::Scorer;
+/// use hapticbillard::units::Tick;
+/// use std::sync::Arc;
+///
+/// let text = shipped::scene("eight_ball_headless").ok_or("no such scene")?;
+/// let scene = Scene::parse("eight_ball_headless.toml", text)?;
+/// let table = scene.build_table(&mut |file| Err(format!("there is no {file}")))?;
+/// let scorer = Scorer::default();
+/// let mut setup = Setup::headless(Tick(3_600_000)); // an hour of game time
+/// setup.observers.push(Box::new(scorer.clone()));
+/// let finished = run(Cast::new(&scene, Arc::new(table))?, setup)?;
+/// let tally = scorer.tally();
+/// println!("player {:?} won after {} s", tally.winner, finished.tick.end_s());
+/// # assert!(tally.over && finished.hash.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn run(cast: Cast, setup: Setup<'_>) -> Result<Finished, LockstepError> {
     let mut game = Lockstep::new(cast, setup)?;
     loop {

@@ -2,13 +2,22 @@
 
 /// `text` without control characters and line separators, cut at `length` characters.
 pub(crate) fn one_line(text: &str, length: usize) -> String {
-    let breaks = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
     let mut line: String =
         text.chars().take(length).map(|c| if breaks(c) { ' ' } else { c }).collect();
     if text.chars().nth(length).is_some() {
         line.push('…');
     }
     line
+}
+
+/// Whether `text` is one line of at most `length` characters as it is.
+pub(crate) fn is_one_line(text: &str, length: usize) -> bool {
+    text.chars().count() <= length && !text.contains(breaks)
+}
+
+/// What ends a line or steers a terminal.
+fn breaks(c: char) -> bool {
+    c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')
 }
 
 /// The message of a JSON error without its own line and column, which the caller knows better.

@@ -42,6 +42,22 @@ pub enum RackError {
 }
 
 /// Which balls stand where when a game begins.
+///
+/// ```
+/// use hapticbillard::ids::BallId;
+/// use hapticbillard::rack::Rack;
+/// use hapticbillard::table::Table;
+///
+/// let table = Table::preset("pool-9ft")?;
+/// let balls = Rack::eight_ball(7).place(&table)?;
+/// assert_eq!(balls.len(), 16);
+/// assert_eq!(balls[0].0.id, BallId::CUE);
+///
+/// // One seed, one rack; another seed shuffles it otherwise.
+/// assert_eq!(balls, Rack::eight_ball(7).place(&table)?);
+/// assert_ne!(balls, Rack::eight_ball(8).place(&table)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rack {
     layout: Layout,

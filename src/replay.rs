@@ -164,6 +164,47 @@ impl Line {
 }
 
 /// A recording that was read.
+///
+/// A game is recorded and run again, and every hash is compared.
+///
+/// ```
+/// use hapticbillard::cast::Cast;
+/// use hapticbillard::lockstep::{Setup, run};
+/// use hapticbillard::replay::{Header, Line, RecordedInput, Recording, VERSION};
+/// use hapticbillard::scene::{Overrides, Scene};
+/// use hapticbillard::shipped;
+/// use hapticbillard::units::Tick;
+/// use std::sync::Arc;
+///
+/// let text = shipped::scene("eight_ball_headless").ok_or("no such scene")?;
+/// let scene = Scene::parse("eight_ball_headless.toml", text)?;
+/// let table = Arc::new(scene.build_table(&mut |file| Err(format!("there is no {file}")))?);
+///
+/// let header = Line::Recording(Header {
+///     version: VERSION,
+///     program: "an example".into(),
+///     scene_name: "eight_ball_headless".into(),
+///     scene: text.into(),
+///     files: Default::default(),
+///     overrides: Overrides::default(),
+/// });
+/// let mut written = header.to_json() + "\n";
+/// let mut write = |line: &Line| written += &(line.to_json() + "\n");
+/// let limit = Tick(60_000); // the first minute
+/// let setup = Setup { record: Some(&mut write), ..Setup::headless(limit) };
+/// let first = run(Cast::new(&scene, table.clone())?, setup)?;
+///
+/// let recording = Arc::new(Recording::parse(&written)?);
+/// let setup = Setup {
+///     input: Some(Box::new(RecordedInput(recording.clone()))),
+///     verify: Some(recording.clone()),
+///     ..Setup::headless(limit)
+/// };
+/// let again = run(Cast::new(&scene, table)?, setup)?;
+/// assert_eq!(again.hash, first.hash);
+/// assert!(again.verified > 0 && again.verified == recording.hashes.len() as u64);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// The first line.

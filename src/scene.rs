@@ -39,6 +39,35 @@ pub const MESHES_MAX: usize = 64;
 const TOUCHING_M: f64 = 1e-7;
 
 /// What exists in a game. Sections that the file does not have are `None` or empty.
+///
+/// ```
+/// use hapticbillard::physics::Simulation;
+/// use hapticbillard::scene::Scene;
+///
+/// let text = r#"
+///     [scene]
+///     name = "A ball rolls"
+///     [physics]
+///     gravity_m_s2 = 9.81
+///     [[plane]]
+///     normal = [0, 0, 1]
+///     [[ball]]
+///     id = 0
+///     position_m = [0, 0]
+///     velocity_m_s = [2, 0, 0]
+/// "#;
+/// let scene = Scene::parse("rolls.toml", text)?;
+/// let table = scene.build_table(&mut |file| Err(format!("there is no {file}")))?;
+/// let balls = scene.build_balls(&table)?;
+/// let shot = Simulation::from_parts(&table, balls, &scene.physics)?.run_until_rest()?;
+/// assert!(shot.end_s > 10.0);
+///
+/// // What is wrong is told with its place and the way out.
+/// let wrong = text.replace("[2, 0, 0]", "[2, 0]");
+/// let error = Scene::parse("rolls.toml", &wrong).map(|_| ()).unwrap_err().to_string();
+/// assert!(error.starts_with("rolls.toml:11: ball[0].velocity_m_s"), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The file, as the caller named it.

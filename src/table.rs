@@ -84,6 +84,22 @@ pub enum TableError {
 }
 
 /// A table, or any other ground to play on.
+///
+/// ```
+/// use hapticbillard::table::Table;
+///
+/// let table = Table::preset("pool-9ft")?;
+/// let bed = table.bed.ok_or("a pool table has a bed")?;
+/// assert_eq!((bed.length_m, bed.width_m), (2.54, 1.27));
+///
+/// // How far it is from the foot spot to each pocket.
+/// for pocket in &table.pockets {
+///     println!("{}: {:.2} m", pocket.id, pocket.target().distance(bed.foot_spot()));
+/// }
+/// // What balls touch is one closed body.
+/// assert!(table.mesh.open_edges().is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     /// Its name, as scenes write it.

@@ -40,6 +40,19 @@ use observed::Observations;
 use setup::Setup;
 
 /// Runs a case with a solver and judges what came out.
+///
+/// # Examples
+/// ```
+/// use hapticbillard::physics::SolverKind;
+/// use hapticbillard::shipped;
+/// use hapticbillard::validation::{Catalogue, Status, run};
+///
+/// let catalogue = Catalogue::parse(shipped::CASES)?;
+/// let case = &catalogue.cases[0];
+/// let outcome = run(case, SolverKind::EventDriven)?;
+/// assert_eq!(outcome.status, Status::Pass);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn run(case: &Case, solver: SolverKind) -> Result<Outcome, CatalogueError> {
     judge::judge(case, solver)
 }

@@ -1,5 +1,7 @@
 //! `hapticbillard report`: how far each method is from the truth, at what cost, where it breaks.
 
+mod builds;
+
 mod cases;
 
 mod closed_loop;
@@ -21,14 +23,18 @@ mod players;
 mod stability;
 
 use super::{Status, json_line, progress};
+use builds::Builds;
 use clap::Args;
 use hapticbillard::report::{CATALOGUE, all_methods};
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::files::write_whole;
+use hapticbillard_actors::files::{read_text, write_whole};
 use measure::Measured;
 use serde_json::json;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// Largest report of which a chapter is made anew [bytes].
+const REPORT_MAX: u64 = 16 << 20;
 
 const EXAMPLE: &str = "\
 Writes errors.csv, a figure (SVG) for each scene and REPORT.md into the folder. Times are processor
@@ -37,6 +43,7 @@ times of this machine; everything else is the same on every machine.
 Examples:
   hapticbillard report --quick
   hapticbillard report --out report --json
+  hapticbillard report --left-out --builds tests/report/builds.json --out tests/report
   hapticbillard report --cases target/peers/cases.jsonl";
 
 /// Measures error against run time of every method, and where each of them breaks.
@@ -64,6 +71,15 @@ pub struct ReportArgs {
     #[arg(long, value_name = "FILE")]
     pub peers: Option<PathBuf>,
 
+    /// Adds what each feature of the program adds, from the file that tests/builds writes.
+    #[arg(long, value_name = "FILE", conflicts_with = "cases")]
+    pub builds: Option<PathBuf>,
+
+    /// Measures only what scenes leave out, and puts that chapter in the place of the one in the
+    /// folder's REPORT.md.
+    #[arg(long, conflicts_with_all = ["cases", "peers", "only", "quick", "json"])]
+    pub left_out: bool,
+
     /// Prints JSON lines.
     #[arg(long)]
     pub json: bool,
@@ -74,6 +90,12 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let scenes = choose(&args.only)?;
     if let Some(file) = &args.cases {
         return cases::write(file, &scenes, args.quick, out);
+    }
+    // A file that cannot be read is refused before anything is measured.
+    let builds = args.builds.as_deref().map(builds::read).transpose()?;
+    let builds = builds.as_ref();
+    if args.left_out {
+        return renew(&args.out.join("REPORT.md"), builds, out);
     }
     let bar = progress(scenes.len() as u64 * all_methods().len() as u64, "rows");
     let measured: Vec<Measured> = scenes
@@ -102,8 +124,23 @@ pub fn run(args: &ReportArgs, out: &mut dyn Write) -> Result<Status, Error> {
     write(figure::CHAOS, &figure::growth(&table.growth)?)?;
     write("closed_loop.csv", &closed_loop::csv(&loops))?;
     write(closed_loop::FIGURE, &closed_loop::draw(&loops)?)?;
+    let idle = page::LeftOut { scenes: &idle, builds };
     write("REPORT.md", &page::page(&measured, peers, &table, &loops, &idle, &players, args.quick))?;
     print(args, &measured, out)
+}
+
+/// Puts the chapter of what is left out in the place of the one in a report.
+fn renew(file: &Path, builds: Option<&Builds>, out: &mut dyn Write) -> Result<Status, Error> {
+    let text = read_text(file, REPORT_MAX)?;
+    let (before, after) = page::around_left_out(&text).ok_or_else(|| {
+        let problem = "has no chapter of what is left out";
+        Error::input(file.display().to_string(), problem, "make it without --left-out")
+    })?;
+    let scenes = left_out::measure()?;
+    let chapter = page::left_out_alone(&page::LeftOut { scenes: &scenes, builds });
+    write_whole(file, [before, &chapter, after].concat().as_bytes())?;
+    writeln!(out, "{} scenes; read {}", scenes.len(), file.display())?;
+    Ok(Status::Success)
 }
 
 fn choose(only: &[String]) -> Result<Vec<hapticbillard::report::Scene>, Error> {

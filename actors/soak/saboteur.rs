@@ -52,9 +52,10 @@ impl Participant for Saboteur {
     }
 
     fn collect(&mut self, delivered: &Delivered) -> Outcome {
-        while self.planned.front().is_some_and(|planned| planned.batch <= self.batches)
-            && let Some(planned) = self.planned.pop_front()
+        while let Some(&planned) = self.planned.front()
+            && planned.batch <= self.batches
         {
+            self.planned.pop_front();
             let victims = self.roster.strike(planned.victim.name(), planned.fault);
             let struck = Struck { tick: delivered.tick, planned, victims };
             tracing::debug!("{:?} to {}", FaultKind::of(planned.fault), planned.victim.name());

@@ -24,17 +24,26 @@ const RECORDINGS_MAX: usize = 200;
 /// Rates of recordings that are read [Hz].
 const RATES_HZ: std::ops::RangeInclusive<u32> = 8_000..=384_000;
 
+/// The loudest sample, 1 being full scale: far larger ones are none of a sound, and a resampler
+/// cannot add them up.
+const SAMPLE_MAX: f32 = 1e6;
+
 /// Frames that are resampled in one go.
 const CHUNK: usize = 1024;
 
 /// A file of a folder that is not used.
 #[derive(Debug, Error)]
-#[error("{} is not used: {reason}", path.display())]
+#[error("{} is not used: {reason}", shown(path))]
 pub struct Refused {
     /// The file.
     pub path: PathBuf,
     /// Why.
     pub reason: Reason,
+}
+
+/// A path in one line: a file's name may hold anything.
+fn shown(path: &Path) -> String {
+    path.display().to_string().replace(char::is_control, "?")
 }
 
 /// Why a sound file is not used.
@@ -55,6 +64,14 @@ pub enum Reason {
     /// A rate outside of what is read.
     #[error("it has {0} samples a second; 8000 to 384000 are read")]
     Rate(u32),
+    /// A sample far beyond full scale.
+    #[error("sample {sample} is {value:e} times full scale; write it with samples from -1 to 1")]
+    Beyond {
+        /// Which, from 0 on.
+        sample: usize,
+        /// What stands there.
+        value: f32,
+    },
     /// It could not be brought to the rate of the stream.
     #[error("it cannot be brought from {from_hz} to {to_hz} samples a second: {problem}")]
     Resampling {
@@ -108,7 +125,20 @@ pub fn read_folder(folder: &Path, rate_hz: u32) -> Result<(Bank, Vec<Refused>), 
 fn add(bank: &mut Bank, name: &str, path: &Path, rate_hz: u32) -> Result<(), Reason> {
     let name: ClipName = name.parse()?;
     let bytes = read_bytes(path, FILE_BYTES_MAX).map_err(Box::new)?;
-    let (samples, from_hz) = decode(&bytes)?;
+    add_bytes(bank, name, &bytes, rate_hz)
+}
+
+/// Adds what a WAV file holds to the bank of a stream of `rate_hz`.
+///
+/// # Errors
+/// [`Reason`] if it cannot stand in for a sound.
+pub fn add_bytes(
+    bank: &mut Bank,
+    name: ClipName,
+    bytes: &[u8],
+    rate_hz: u32,
+) -> Result<(), Reason> {
+    let (samples, from_hz) = decode(bytes)?;
     let samples = resample(samples, from_hz, rate_hz)?;
     Ok(bank.insert(name.class, name.speed_m_s, &samples, rate_hz as f32)?)
 }
@@ -144,6 +174,9 @@ fn resample(samples: Vec<f32>, from_hz: u32, to_hz: u32) -> Result<Vec<f32>, Rea
     // A sample that is no number would spread over all others.
     if let Some(sample) = samples.iter().position(|sample| !sample.is_finite()) {
         return Err(RecordingError::NotFinite { sample }.into());
+    }
+    if let Some(sample) = samples.iter().position(|sample| sample.abs() > SAMPLE_MAX) {
+        return Err(Reason::Beyond { sample, value: samples[sample] });
     }
     if from_hz == to_hz || samples.is_empty() {
         return Ok(samples);

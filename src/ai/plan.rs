@@ -301,6 +301,32 @@ pub(super) fn best_pot(
 }
 
 /// Decides what to play from a cue ball at `cue`.
+///
+/// # Examples
+/// ```
+/// use glam::DVec2;
+/// use hapticbillard::ai::{Goal, PlanKind, SeenBall, TableView2d, plan_shot};
+/// use hapticbillard::ball::POOL_RADIUS_M;
+/// use hapticbillard::events::ShotKind;
+/// use hapticbillard::ids::BallId;
+/// use hapticbillard::table::Table;
+/// use rand::SeedableRng;
+/// use rand_pcg::Pcg64Mcg;
+///
+/// let table = Table::preset("pool-9ft")?;
+/// let (one, cue_ball) = (BallId(1), DVec2::ZERO);
+/// let view = TableView2d {
+///     cue_ball: Some(cue_ball),
+///     balls: vec![SeenBall { id: one, position: DVec2::new(0.9, 0.3) }],
+///     ball_radius_m: POOL_RADIUS_M,
+///     bed: table.bed.ok_or("no bed")?,
+///     pockets: table.pockets,
+/// };
+/// let goal = Goal { shot: ShotKind::Normal, own: vec![one], legal: vec![one] };
+/// let plan = plan_shot(&view, cue_ball, &goal, 0.0, &mut Pcg64Mcg::seed_from_u64(1));
+/// assert_eq!(plan.kind, PlanKind::Pot);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn plan_shot(
     view: &TableView2d,
     cue: DVec2,

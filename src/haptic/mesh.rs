@@ -9,6 +9,9 @@ use glam::DVec3;
 const CELL_M: f64 = 0.04;
 /// Most cells of the grid; a larger world has larger cells.
 const CELLS_MAX: f64 = 4e6;
+/// Most entries of all cells together: many faces that each cross the whole world would fill every
+/// cell of it.
+const MEMBERS_MAX: f64 = 8e6;
 
 /// Everything fixed that can be felt.
 #[derive(Debug, Clone, Default)]
@@ -46,8 +49,14 @@ impl HapticMesh {
         let cells = |edge: f64| {
             size.to_array().iter().map(|side| libm::floor(side / edge) + 1.0).product::<f64>()
         };
+        // At most: a face may begin anywhere in a cell.
+        let listed = |[a, b, c]: &[DVec3; 3], edge: f64| {
+            let size = a.max(*b).max(*c) - a.min(*b).min(*c);
+            size.to_array().iter().map(|side| libm::floor(side / edge) + 2.0).product::<f64>()
+        };
+        let members = |edge: f64| mesh.faces.iter().map(|face| listed(face, edge)).sum::<f64>();
         let mut cell_m = CELL_M;
-        while cells(cell_m) > CELLS_MAX {
+        while cells(cell_m) > CELLS_MAX || cells(cell_m) > 1.0 && members(cell_m) > MEMBERS_MAX {
             cell_m *= 2.0;
         }
         (mesh.low, mesh.cell_m) = (low, cell_m);
@@ -205,6 +214,18 @@ mod tests {
             let force = by_force(&corners, p);
             assert!(found <= force + 1e-12 && force < found + 0.01, "{found} {force}");
         }
+    }
+
+    #[test]
+    fn many_large_faces_cost_little() {
+        let slope = [DVec3::ZERO, DVec3::splat(6.0), DVec3::new(6.0, 6.0, 5.9)];
+        let mesh = HapticMesh::new(vec![slope; 2_000], Vec::new());
+        assert!(mesh.members.len() as f64 <= MEMBERS_MAX, "{}", mesh.members.len());
+        let mut seen = 0;
+        mesh.each_near(DVec3::splat(3.0), 0.1, |_| seen += 1);
+        assert!(seen >= 2_000, "{seen}");
+        // The table of a game keeps its small cells.
+        assert_eq!(HapticMesh::of(&Table::preset("pool-9ft").unwrap()).cell_m, CELL_M);
     }
 
     #[test]

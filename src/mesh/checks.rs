@@ -2,23 +2,28 @@
 
 use super::Mesh;
 use glam::DVec3;
-use std::collections::BTreeMap;
 
 impl Mesh {
     /// Edges that are not shared by exactly two faces in opposite directions, as pairs of vertex
     /// numbers in the direction of a face, in order. A closed, consistently oriented mesh has none.
     pub fn open_edges(&self) -> Vec<(u32, u32)> {
-        let mut uses: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut edges: Vec<(u32, u32)> = Vec::with_capacity(3 * self.faces.len());
         for face in &self.faces {
             let [a, b, c] = face.corners;
-            for edge in [(a, b), (b, c), (c, a)] {
-                *uses.entry(edge).or_default() += 1;
-            }
+            edges.extend([(a, b), (b, c), (c, a)]);
         }
-        let is_shared = |&(a, b): &(u32, u32), count: u32| {
-            a != b && count == 1 && uses.get(&(b, a)) == Some(&1)
+        edges.sort_unstable();
+        let uses = |edge: (u32, u32)| {
+            let first = edges.partition_point(|other| *other < edge);
+            edges[first..].iter().take_while(|other| **other == edge).count()
         };
-        uses.iter().filter(|(edge, count)| !is_shared(edge, **count)).map(|(e, _)| *e).collect()
+        let runs = edges.chunk_by(|a, b| a == b);
+        runs.filter(|run| {
+            let (a, b) = run[0];
+            a == b || run.len() != 1 || uses((b, a)) != 1
+        })
+        .map(|run| run[0])
+        .collect()
     }
 
     /// Signed volume [m³]: Σ a · (b × c) / 6 over the faces (divergence theorem). Positive when

@@ -20,6 +20,28 @@ const SPEED_LEAST_M_S: f64 = 0.001;
 const FOLLOW_THROUGH_S: Seconds = 0.02;
 
 /// A stroke at the cue ball.
+///
+/// Draw: struck below its middle, the cue ball comes back from the ball it hits.
+///
+/// ```
+/// use glam::DVec3;
+/// use hapticbillard::ball::{Ball, BallState, POOL_RADIUS_M};
+/// use hapticbillard::ids::BallId;
+/// use hapticbillard::physics::{PhysicsSettings, Simulation, Strike};
+/// use hapticbillard::table::Table;
+///
+/// let one = BallId(1);
+/// let balls = [(BallId::CUE, 0.0), (one, 0.5)].map(|(id, x)| {
+///     (Ball::pool(id), BallState::at_rest(id, DVec3::new(x, 0.0, POOL_RADIUS_M)))
+/// });
+/// let start =
+///     Simulation::from_parts(&Table::plane(), balls.to_vec(), &PhysicsSettings::default())?;
+/// let draw = Strike { speed_m_s: 3.0, height_offset: -0.5, ..Strike::CENTRE };
+/// let end = start.strike(draw)?.run_until_rest()?.end;
+/// let x = |id| end.sample(id, end.now_s()).map(|ball| ball.position.x);
+/// assert!(x(BallId::CUE) < Some(0.3) && Some(1.0) < x(one));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strike {
     /// Speed of the tip at the contact [m/s].
@@ -131,6 +153,25 @@ impl Strike {
 }
 
 /// What came of a stroke.
+///
+/// ```
+/// use hapticbillard::events::FactKind;
+/// use hapticbillard::ids::BallId;
+/// use hapticbillard::physics::{Simulation, Strike};
+/// use hapticbillard::rack::Rack;
+/// use hapticbillard::table::Table;
+///
+/// let start = Simulation::new(Table::preset("pool-9ft")?, Rack::nine_ball(1))?;
+/// let shot = start.strike(Strike { speed_m_s: 8.0, ..Strike::CENTRE })?.run_until_rest()?;
+///
+/// // Facts are in time order and know their time exactly.
+/// let hit = |kind: &FactKind| matches!(kind, FactKind::BallsCollided { a: BallId::CUE, .. });
+/// let first = shot.facts.iter().find(|fact| hit(&fact.kind)).ok_or("no ball was hit")?;
+/// let cue_ball = shot.trajectory(BallId::CUE).at(first.time_s).ok_or("no cue ball")?;
+/// println!("{:.4} s: {} m/s after the first contact", first.time_s, cue_ball.velocity.length());
+/// # assert!(cue_ball.velocity.length() > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Shot {
     /// What happened, in time order.

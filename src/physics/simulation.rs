@@ -146,6 +146,20 @@ impl Simulation {
 
     /// Other balls at their start, at time zero, on the same table with the same settings. The
     /// table is shared and not prepared again, which is most of the work of making a simulation.
+    ///
+    /// ```
+    /// use hapticbillard::physics::Simulation;
+    /// use hapticbillard::rack::Rack;
+    /// use hapticbillard::table::Table;
+    ///
+    /// let table = Table::preset("pool-9ft")?;
+    /// let first = Simulation::new(table.clone(), Rack::nine_ball(0))?;
+    /// for seed in 1..10 {
+    ///     let other = first.with_balls(Rack::nine_ball(seed).place(&table)?)?;
+    ///     assert!(other.is_still());
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn with_balls(&self, balls: Vec<(Ball, BallState)>) -> Result<Self, PhysicsError> {
         let engine = match &self.engine {
             Engine::EventDriven(solver) => Engine::EventDriven(Box::new(solver.with_balls(balls)?)),

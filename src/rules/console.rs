@@ -19,6 +19,19 @@ use std::sync::Arc;
 const LINE_MAX: usize = 1 << 20;
 
 /// A game that is played by typing facts.
+///
+/// ```
+/// use hapticbillard::ids::GameKind;
+/// use hapticbillard::rules::Console;
+///
+/// let mut console = Console::new(GameKind::PaperEightBall);
+/// console.feed_line(r#"{"t":0.0,"e":"place","ball":"0","zone":"kitchen","ok":true}"#)?;
+/// console.feed_line(r#"{"t":0.1,"e":"tip","ball":"0"}"#)?;
+/// let answer = console.feed_line(r#"{"t":9.0,"e":"settle"}"#)?;
+/// let verdict = answer.verdict.ok_or("a shot that is over is judged")?;
+/// assert!(!verdict.legal && verdict.fouls.len() == 1); // the cue ball met nothing
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Console {
     referee: Referee,

@@ -28,6 +28,33 @@ use std::sync::Arc;
 type Sayings = SmallVec<[Event; 4]>;
 
 /// The referee of one game.
+///
+/// ```
+/// use hapticbillard::events::{Event, Fact, FactKind};
+/// use hapticbillard::ids::{BallId, GameKind, PlayerId};
+/// use hapticbillard::physics::{Simulation, Strike};
+/// use hapticbillard::rack::Rack;
+/// use hapticbillard::rules::Referee;
+/// use hapticbillard::table::Table;
+///
+/// let mut referee = Referee::new(GameKind::PaperEightBall).first_player(PlayerId::TWO);
+/// referee.begin((1..=15).map(BallId));
+///
+/// let start = Simulation::new(Table::preset("pool-9ft")?, Rack::eight_ball(7))?;
+/// let shot = start.strike(Strike { speed_m_s: 8.0, ..Strike::CENTRE })?.run_until_rest()?;
+/// let zone = hapticbillard::events::Zone::Kitchen;
+/// let placed = FactKind::BallPlaced { ball: BallId::CUE, zone, ok: true };
+/// let placed = Fact { time_s: 0.0, kind: placed };
+/// for fact in [placed].iter().chain(&shot.facts) {
+///     for said in referee.handle(fact) {
+///         if let Event::Verdict(verdict) = said {
+///             println!("{verdict:?}");
+///         }
+///     }
+/// }
+/// assert!(referee.verdict().is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Referee {
     game: GameKind,

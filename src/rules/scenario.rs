@@ -222,7 +222,7 @@ const KEYS: [&str; 16] = [
 fn compare(expected: &Map<String, Value>, got: &Map<String, Value>) -> Vec<Difference> {
     let unknown = expected.keys().filter(|key| !KEYS.contains(&key.as_str())).map(|key| {
         let problem = format!("no such key; the keys are {}", KEYS.join(", "));
-        Difference { key: key.clone(), problem }
+        Difference { key: one_line(key, 60), problem }
     });
     let keys = KEYS.into_iter().filter(|key| {
         // The file format says nothing of what fell and what is racked; who writes it gets it
@@ -235,7 +235,7 @@ fn compare(expected: &Map<String, Value>, got: &Map<String, Value>) -> Vec<Diffe
         (normal(key, want) != normal(key, have)).then(|| {
             let show = |value: Option<&Value>| value.unwrap_or(&Value::Null).to_string();
             let problem = format!("expected {}, got {}", show(want), show(have));
-            Difference { key: key.into(), problem }
+            Difference { key: key.into(), problem: one_line(&problem, 400) }
         })
     });
     different.chain(unknown).collect()

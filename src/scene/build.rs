@@ -10,6 +10,9 @@ use crate::rack::{Rack, Spots};
 use crate::table::Table;
 use glam::{DQuat, DVec3};
 
+/// How far from the origin a mesh may reach, along each axis [m].
+const MESH_REACH_M: f64 = 1e4;
+
 impl Scene {
     /// The ground that the scene names. `load` hands over the text of each mesh file that
     /// [`Scene::meshes_needed`] lists, or says why it cannot.
@@ -43,6 +46,11 @@ impl Scene {
                 .map_err(|error| wrong(&error.to_string(), "correct the mesh file"))?;
             for vertex in &mut mesh.vertices {
                 *vertex = *vertex * section.scale + section.offset_m;
+            }
+            let is_far = |vertex: &&DVec3| !(vertex.abs().max_element() <= MESH_REACH_M);
+            if let Some(vertex) = mesh.vertices.iter().find(is_far) {
+                let problem = format!("a corner at {vertex} m: at most {MESH_REACH_M} m away");
+                return Err(wrong(&problem, "correct the mesh file, or the scale of the mesh"));
             }
             table.mesh.append(&mesh);
         }

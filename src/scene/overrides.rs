@@ -2,7 +2,11 @@
 
 use super::{Entrant, RackKind, Scene};
 use crate::ids::{GameKind, PlayerId};
+use crate::one_line::one_line;
 use serde::{Deserialize, Serialize};
+
+/// The longest name of a player that a recording gives [characters].
+const NAME_MAX: usize = 100;
 
 /// Changes to a scene.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -48,7 +52,7 @@ impl Overrides {
             entrant.apply(section);
         }
         for (section, name) in scene.players.iter_mut().zip(&self.names) {
-            section.name.clone_from(name);
+            section.name = one_line(name, NAME_MAX);
         }
     }
 }

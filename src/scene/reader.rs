@@ -2,6 +2,7 @@
 
 use super::SceneError;
 use super::error::meant;
+use crate::one_line::is_one_line;
 use glam::DVec3;
 use std::ops::Range;
 use toml::Spanned;
@@ -252,9 +253,9 @@ impl<'t> Section<'t> {
     pub fn text(&self, key: &str, example: &str) -> Result<Option<String>, SceneError> {
         let Some(value) = self.value(key) else { return Ok(None) };
         let fix = format!("write for example {key} = \"{example}\"");
-        let allowed = format!("expected a text in quotes, at most {STRING_MAX} characters");
+        let allowed = format!("expected a line in quotes, at most {STRING_MAX} characters");
         match value.get_ref().as_str() {
-            Some(text) if text.chars().count() <= STRING_MAX => Ok(Some(text.to_string())),
+            Some(text) if is_one_line(text, STRING_MAX) => Ok(Some(text.to_string())),
             _ => Err(self.error(key, &allowed, &fix)),
         }
     }

@@ -127,6 +127,18 @@ impl Bank {
     }
 
     /// The synthesis of a class, from its begin to its end: pressure at 1 m [Pa].
+    ///
+    /// # Examples
+    /// The click of two balls that meet at 2 m/s, at 48 kHz.
+    ///
+    /// ```
+    /// use hapticbillard::sound::{Bank, SoundClass};
+    ///
+    /// let click = Bank::synthesise(SoundClass::BallClick, 2.0, 1, 48_000.0);
+    /// let loudest = click.iter().fold(0.0_f32, |most, pressure_pa| most.max(pressure_pa.abs()));
+    /// println!("{} samples, at most {loudest:.2} Pa", click.len());
+    /// # assert!(click.len() > 100 && loudest > 0.0);
+    /// ```
     pub fn synthesise(class: SoundClass, speed_m_s: f32, variant: u32, rate_hz: f32) -> Vec<f32> {
         let onset = Onset {
             time_s: 0.0,

@@ -92,7 +92,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     whole(
         "[scene]\nname = 7\n[physics]\n",
-        "2: scene.name = 7: expected a text in quotes, at most 4096 characters; write for \
+        "2: scene.name = 7: expected a line in quotes, at most 4096 characters; write for \
          example name = \"My scene\"",
     );
     whole(

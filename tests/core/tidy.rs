@@ -81,10 +81,11 @@ fn root() -> &'static Path {
 /// Every text file of the repository that somebody wrote, with its path from the root.
 fn files() -> Vec<(String, String)> {
     let mut found = Vec::new();
-    let mut folders: Vec<PathBuf> = ["src", "actors", "assets", "config", "tests", ".ci"]
-        .iter()
-        .map(|folder| root().join(folder))
-        .collect();
+    let mut folders: Vec<PathBuf> =
+        ["src", "actors", "assets", "config", "tests", ".ci", ".github"]
+            .iter()
+            .map(|folder| root().join(folder))
+            .collect();
     let mut paths: Vec<PathBuf> = ["Cargo.toml", "README.md", "Makefile", "clippy.toml"]
         .iter()
         .map(|file| root().join(file))
@@ -92,8 +93,10 @@ fn files() -> Vec<(String, String)> {
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             let path = entry.path();
-            // A crate of its own, outside the workspace, has its build in its folder.
-            let is_build = path.file_name().is_some_and(|name| name == "target");
+            // A crate of its own, outside the workspace, has its build in its folder, and what
+            // its fuzzers write.
+            let built = ["target", "work", "artifacts"];
+            let is_build = path.file_name().is_some_and(|name| built.iter().any(|b| name == *b));
             if path.is_dir() && !is_build {
                 folders.push(path);
             } else {

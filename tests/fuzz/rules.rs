@@ -14,7 +14,7 @@ mod enumerate;
 /// What must hold in the games of the paper.
 mod paper;
 /// One game of random events.
-mod play;
+pub mod play;
 /// What must hold in nine-ball and straight pool.
 mod pool;
 /// Shots as good players make them.

@@ -67,6 +67,8 @@ fn every_command_teaches_with_an_example() {
         "learn",
         "soak",
         "doctor",
+        "completions",
+        "man",
     ];
     for command in commands {
         let output = program(&[command, "--help"]);
@@ -103,11 +105,19 @@ fn a_mistyped_command_line_exits_with_2() {
         &["scenes", "--yaml"],
         &["match", "--games", "0"],
         &["play", "--speed", "-1"],
+        &["--seed", "3", "simulate"],
         &["render", "--scene", "one_ball", "--out", "picture.jpg"],
     ] {
         let output = program(wrong);
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");
         assert!(output.stdout.is_empty(), "{wrong:?}");
+    }
+}
+
+#[test]
+fn what_every_command_takes_stands_before_or_behind_it() {
+    for arguments in [&["-v", "scenes"], &["scenes", "-v"]] {
+        assert!(program(arguments).status.success(), "{arguments:?}");
     }
 }
 

@@ -3,8 +3,15 @@
 // Helpers of tests may fail loudly, as tests do.
 #![allow(clippy::unwrap_used)]
 
+/// The program away from its source.
+mod anywhere;
 /// Many shots at once.
 mod batch;
+/// Bytes from outside, as the fuzz tests of the core take them.
+#[cfg(feature = "sound")]
+#[path = "../fuzz/bytes.rs"]
+#[allow(dead_code)]
+mod bytes;
 /// The program as a shell sees it: what it prints where, and its exit codes.
 mod cli;
 /// Forces that end when something fails while a wall is felt.
@@ -33,10 +40,16 @@ mod haptic;
 mod hearing;
 /// What `--json` prints, and what options change.
 mod json;
+/// The chapter of what is left out.
+mod left_out;
+/// The licences of what is linked.
+mod licences;
 /// Full queues and slow listeners.
 mod load;
 /// What the program says about itself, and where.
 mod logging;
+/// Completions and manual pages.
+mod manual;
 /// Who stands in for whom.
 mod mocks;
 /// Devices of the vendor's HD library, in front of a stub of it.
@@ -64,6 +77,9 @@ mod servo;
 mod soak;
 /// Sound: the actor in front of a speaker of our own, and the system's real audio library.
 mod sound;
+/// What libFuzzer found among sound files.
+#[cfg(feature = "sound")]
+mod sound_corpus;
 /// Sound files: a player's recordings, and every class written.
 #[cfg(feature = "sound")]
 mod sound_files;

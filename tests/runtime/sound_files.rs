@@ -109,6 +109,7 @@ fn bad_files_are_refused_in_a_sentence_and_good_ones_are_heard() {
     write(&folder.join("cushion_v1_3.wav"), spec(1, 4_000, 16), &good);
     write(&folder.join("cushion_v1_4.wav"), spec(1, RATE_HZ, 16), &[0.0; 1_000]);
     write(&folder.join("cushion_v1_5.wav"), spec(1, 44_100, 0), &[0.1, f32::NAN, 0.1]);
+    write(&folder.join("cushion_v1_51.wav"), spec(1, 44_100, 0), &[0.1, -1e20, 0.1]);
     write(&folder.join("cushion_v1_6.wav"), spec(1, 8_000, 8), &vec![0.1; 81_000]);
     write(&folder.join("gong_v1_1.wav"), spec(1, RATE_HZ, 16), &good);
     write(&folder.join("cushion_fast_1.wav"), spec(1, RATE_HZ, 16), &good);
@@ -127,6 +128,7 @@ fn bad_files_are_refused_in_a_sentence_and_good_ones_are_heard() {
         ("cushion_v1_3.wav", "it has 4000 samples a second; 8000 to 384000 are read"),
         ("cushion_v1_4.wav", "nothing can be heard in it"),
         ("cushion_v1_5.wav", "sample 1 is no finite number"),
+        ("cushion_v1_51.wav", "sample 1 is -1e20 times full scale"),
         ("cushion_v1_6.wav", "it lasts longer than 10 s"),
         ("cushion_v1_7.wav", "it is no WAV file that can be read"),
         ("cushion_v1_8.wav", "it is no WAV file that can be read"),

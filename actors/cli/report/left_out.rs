@@ -78,9 +78,8 @@ fn line(name: &'static str) -> Result<Line, Error> {
     let plan = stage.scene.plan();
     let starts =
         |actor: &str| plan.iter().any(|line| line.kind == PlanKind::Actor && line.name == actor);
-    // The default features, and the actor that is linked by each.
-    let unused = [("renderer", "renderer")].into_iter().filter(|(_, actor)| !starts(actor));
-    let unused = unused.map(|(feature, _)| feature).collect();
+    // The default features that link an actor of the same name.
+    let unused = ["renderer", "sound"].into_iter().filter(|feature| !starts(feature)).collect();
     // The main thread draws; physics has one if the scene asks.
     let threads = usize::from(starts("renderer")) + usize::from(stage.scene.physics.thread);
     let mesh = &stage.table.mesh;

@@ -5,6 +5,7 @@ mod left_out;
 mod scene;
 mod stability;
 
+use super::builds::{self, Builds};
 use super::closed_loop;
 use super::figure;
 use super::left_out::Line;
@@ -31,7 +32,7 @@ pub fn page(
     peers: Option<&Peers>,
     table: &Table,
     loops: &[closed_loop::Timed],
-    left_out: &[Line],
+    left_out: &LeftOut<'_>,
     players: &Players,
     quick: bool,
 ) -> String {
@@ -49,10 +50,40 @@ pub fn page(
     stability::chapter(&mut text, table);
     say!(text, "### How stiff a haptic wall may be\n");
     closed_loop::chapter(&mut text, loops);
-    left_out::chapter(&mut text, left_out);
+    left_out::chapter(&mut text, left_out, None);
     beyond(&mut text, players);
     left_out::missing(&mut text, measured, quick);
     text
+}
+
+/// What is left out: of scenes, and of the program.
+pub struct LeftOut<'a> {
+    /// The scenes.
+    pub scenes: &'a [Line],
+    /// The program with each feature, if somebody built it.
+    pub builds: Option<&'a Builds>,
+}
+
+/// The chapter of what is left out, which says when it was made.
+pub fn left_out_alone(left_out: &LeftOut<'_>) -> String {
+    let mut text = String::new();
+    let name = new_recording_name();
+    let date = name.split('_').next().unwrap_or_default();
+    let made = format!(
+        "This chapter was made on {date} in a run of its own, `hapticbillard report --left-out`, \
+         on {}. ",
+        processor_name()
+    );
+    left_out::chapter(&mut text, left_out, Some(&made));
+    text
+}
+
+/// What stands before that chapter in a report, and what behind.
+pub fn around_left_out(report: &str) -> Option<(&str, &str)> {
+    let begin = report.find(left_out::HEADING)?;
+    let inside = begin + left_out::HEADING.len();
+    let end = report[inside..].find("\n## ").map_or(report.len(), |at| inside + at + 1);
+    Some((&report[..begin], &report[end..]))
 }
 
 fn head(text: &mut String, quick: bool, peers: bool) {

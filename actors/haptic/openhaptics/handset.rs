@@ -3,9 +3,9 @@
 
 use super::care::{Care, Reason};
 use super::hd::{calibration, capability, parameter};
-use super::session::{MM, Session};
-use glam::{DMat3, DQuat, DVec3};
-use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
+use super::session::Session;
+use hapticbillard::haptic::openhaptics::HdReading;
+use hapticbillard::haptic::{Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 use hapticbillard::units::Seconds;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -72,30 +72,20 @@ impl Handset {
         let hd = self.session.hd();
         let vector = |parameter| {
             let [x, y, z, ..] = hd.doubles(parameter);
-            DVec3::new(x, y, z) * MM
+            [x, y, z]
         };
-        let orientation = match self.session.spec.senses_orientation {
-            true => orientation(&hd.doubles(parameter::CURRENT_TRANSFORM)),
-            false => DQuat::IDENTITY,
+        let transform = match self.session.spec.senses_orientation {
+            true => hd.doubles(parameter::CURRENT_TRANSFORM),
+            false => Default::default(),
         };
-        // Its buttons 1 and 2 are the front and the rear one, as ours are.
-        let buttons = hd.integer(parameter::CURRENT_BUTTONS) & 0xF;
-        DeviceState {
-            position: vector(parameter::CURRENT_POSITION) - self.session.centre_m,
-            velocity: vector(parameter::CURRENT_VELOCITY),
-            orientation,
-            buttons: Buttons(u8::try_from(buttons).unwrap_or(0)),
-            status: DeviceStatus::Ready,
-        }
+        let said = HdReading {
+            position_mm: vector(parameter::CURRENT_POSITION),
+            velocity_mm_s: vector(parameter::CURRENT_VELOCITY),
+            transform,
+            buttons: hd.integer(parameter::CURRENT_BUTTONS),
+        };
+        said.state(&self.session.spec, self.session.centre_m)
     }
-}
-
-/// Rotation of a transform that stands column by column.
-fn orientation(m: &[f64; 16]) -> DQuat {
-    let column = |i: usize| DVec3::new(m[i], m[i + 1], m[i + 2]);
-    let axes = DMat3::from_cols(column(0), column(4), column(8));
-    // Three axes that are none say nothing.
-    if axes.determinant() > 0.5 { DQuat::from_mat3(&axes).normalize() } else { DQuat::IDENTITY }
 }
 
 impl Device for Handset {
@@ -133,25 +123,5 @@ impl Device for Handset {
         let was_lost = self.last.status == DeviceStatus::Lost;
         self.listen();
         self.is_parted = was_lost;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_transform_turns_the_stylus_as_its_columns_say() {
-        // A quarter turn to the left about y: the stylus, which points along -z, points along -x.
-        let left = [
-            0.0, 0.0, -1.0, 0.0, //
-            0.0, 1.0, 0.0, 0.0, //
-            1.0, 0.0, 0.0, 0.0, //
-            10.0, 20.0, 30.0, 1.0,
-        ];
-        let pointing = orientation(&left) * DVec3::NEG_Z;
-        assert!((pointing - DVec3::NEG_X).length() < 1e-12, "{pointing}");
-        assert_eq!(orientation(&[0.0; 16]), DQuat::IDENTITY);
-        assert_eq!(orientation(&[f64::NAN; 16]), DQuat::IDENTITY);
     }
 }

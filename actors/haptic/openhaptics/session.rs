@@ -8,14 +8,13 @@ use super::library::Loaded;
 use crate::haptic::rights::Refusal;
 use glam::DVec3;
 use hapticbillard::haptic::DeviceSpec;
+use hapticbillard::haptic::openhaptics::{self, HdLimits, told};
 use std::ffi::CString;
 
 /// What the library calls its usual device, where it takes no null.
 const USUAL_NAMES: [&str; 2] = ["Default PHANToM", "Default Device"];
 /// The rate that is asked for [Hz].
 const RATE_HZ: u32 = 1000;
-/// Metres in a millimetre.
-pub const MM: f64 = 1e-3;
 
 /// An open device. Dropping it closes it.
 pub struct Session {
@@ -43,14 +42,15 @@ impl Session {
         let device = init(loaded, name)?;
         hd.make_current(device);
         let rate_refused = ask_for_rate(hd);
-        let workspace = hd.doubles(parameter::USABLE_WORKSPACE).map(|mm| mm * MM);
+        let limits = limits(hd);
         let about = about(hd);
-        let spec = spec(hd, hd.text(parameter::MODEL), size(&workspace));
+        // The library stays for good, and so do its devices' names.
+        let model = Box::leak(told(&hd.text(parameter::MODEL)).into_boxed_str());
         let session = Session {
             loaded,
             device,
-            spec,
-            centre_m: centre(&workspace),
+            spec: limits.spec(model),
+            centre_m: limits.centre_m(),
             style: style(hd),
             about,
             rate_refused,
@@ -166,8 +166,8 @@ fn ask_for_rate(hd: &Hd) -> Option<Refusal> {
 
 fn rate_hz(hd: &Hd) -> f64 {
     let rate = f64::from(hd.integer(parameter::UPDATE_RATE));
-    let is_known = hd.error().is_none() && (10.0..=20_000.0).contains(&rate);
-    if is_known { rate } else { f64::from(RATE_HZ) }
+    let is_known = hd.error().is_none();
+    openhaptics::rate_hz(rate).filter(|_| is_known).unwrap_or(f64::from(RATE_HZ))
 }
 
 /// The best way to calibrate that the device knows.
@@ -185,64 +185,26 @@ fn about(hd: &Hd) -> String {
         (parameter::DRIVER_VERSION, "driver "),
         (parameter::VERSION, "library "),
     ];
-    let parts = parts.map(|(parameter, word)| (word, hd.text(parameter)));
+    let parts = parts.map(|(parameter, word)| (word, told(&hd.text(parameter))));
     let told = parts.iter().filter(|(_, text)| !text.is_empty());
     told.map(|(word, text)| format!("{word}{text}")).collect::<Vec<_>>().join(", ")
 }
 
-/// Width, height and depth of a workspace [m]; none if it is no box.
-fn size(workspace: &[f64]) -> Option<DVec3> {
-    let size = DVec3::new(
-        workspace[3] - workspace[0],
-        workspace[4] - workspace[1],
-        workspace[5] - workspace[2],
-    );
-    let fits = |side: f64| (0.01..=2.0).contains(&side);
-    (fits(size.x) && fits(size.y) && fits(size.z)).then_some(size)
-}
-
-fn centre(workspace: &[f64]) -> DVec3 {
-    match size(workspace) {
-        Some(size) => DVec3::new(workspace[0], workspace[1], workspace[2]) + 0.5 * size,
-        None => DVec3::ZERO,
-    }
-}
-
-/// What the device says of itself. Where it says nothing, or something out of all reason, the
-/// numbers of an Omni stand in. Friction is not reported: only devices whose friction is published
-/// are credited with it, since it allows more stiffness.
-fn spec(hd: &Hd, model: String, size: Option<DVec3>) -> DeviceSpec {
-    let usual = DeviceSpec::OMNI;
-    let limit = |parameter, unit: f64, range: std::ops::RangeInclusive<f64>, usual: f64| {
-        let value = hd.doubles(parameter)[0] * unit;
-        if hd.error().is_none() && range.contains(&value) { value } else { usual }
+/// What the device says of itself.
+fn limits(hd: &Hd) -> HdLimits {
+    let [a, b, c, d, e, f, ..] = hd.doubles(parameter::USABLE_WORKSPACE);
+    hd.error();
+    let asked = |parameter| {
+        let value = hd.doubles(parameter)[0];
+        hd.error().is_none().then_some(value)
     };
-    let force_max_n = limit(parameter::NOMINAL_MAX_FORCE, 1.0, 0.1..=50.0, usual.force_max_n);
-    let force_continuous_n =
-        limit(parameter::NOMINAL_MAX_CONTINUOUS_FORCE, 1.0, 0.01..=50.0, usual.force_continuous_n);
-    let is_known = ["omni", "touch"].iter().any(|name| model.to_lowercase().contains(name));
-    DeviceSpec {
-        // The library stays for good, and so do its devices' names.
-        model: if model.is_empty() { "OpenHaptics" } else { Box::leak(model.into_boxed_str()) },
-        workspace_m: size.unwrap_or(usual.workspace_m),
-        force_max_n,
-        force_continuous_n: force_continuous_n.min(force_max_n),
-        stiffness_max_n_m: limit(
-            parameter::NOMINAL_MAX_STIFFNESS,
-            1.0 / MM,
-            10.0..=10_000.0,
-            usual.stiffness_max_n_m,
-        ),
-        damping_max_ns_m: limit(
-            parameter::NOMINAL_MAX_DAMPING,
-            1.0 / MM,
-            0.1..=100.0,
-            usual.damping_max_ns_m,
-        ),
-        friction_n: if is_known { usual.friction_n } else { 0.0 },
+    HdLimits {
+        workspace_mm: [a, b, c, d, e, f],
+        force_max_n: asked(parameter::NOMINAL_MAX_FORCE),
+        force_continuous_n: asked(parameter::NOMINAL_MAX_CONTINUOUS_FORCE),
+        stiffness_max_n_mm: asked(parameter::NOMINAL_MAX_STIFFNESS),
+        damping_max_ns_mm: asked(parameter::NOMINAL_MAX_DAMPING),
         rate_hz: rate_hz(hd),
-        senses_orientation: hd.integer(parameter::INPUT_DOF) >= 6,
-        has_own_scheduler: true,
-        ..usual
+        input_dof: hd.integer(parameter::INPUT_DOF),
     }
 }

@@ -135,7 +135,7 @@ impl Walk<'_> {
             return None;
         }
         let sinks = closing::falling_quadratic(above + tolerance::SUPPORT_M, v, a, f64::INFINITY)?;
-        Some((&plans.low, from + sinks))
+        Some((self.terrain.low_plan(plans), from + sinks))
     }
 
     fn over_plan(&self, plan: &Plan, from: Seconds, until: Seconds, work: &mut Work) -> Reached {

@@ -6,6 +6,7 @@
 //! a ball whose centre is in it can touch; cells where nothing is in reach, or nothing but the bed,
 //! know how far around them that holds, and are passed in leaps.
 
+mod coarse;
 mod grid;
 mod patches;
 mod plan;
@@ -17,9 +18,12 @@ use crate::mesh::Surface;
 use crate::physics::tolerance;
 use crate::rack::Spots;
 use crate::table::{Bed, Plane, Pocket, Table};
+use coarse::Coarse;
 use glam::{DVec3, IVec3};
+use grid::Cut;
 use plan::Lists;
 use smallvec::SmallVec;
+use std::sync::OnceLock;
 
 /// Triangles of one patch overlap by this, so that no foot falls between them [m].
 const SEAM_M: f64 = 1e-12;
@@ -126,11 +130,18 @@ fn sides_of(triangle: &[DVec3; 3]) -> [Side; 3] {
 #[derive(Debug, Clone, Copy)]
 pub struct Block {
     /// What is in reach; none if nothing is.
-    pub listed: Option<Listed>,
+    found: Option<Found>,
     /// Its first and last smallest cell along each axis.
     pub low: IVec3,
     /// See `low`.
     pub high: IVec3,
+}
+
+/// What a coarse cell lists somewhere.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    cell: u32,
+    listed: Listed,
 }
 
 /// Ranges of the lists of parts.
@@ -159,14 +170,6 @@ impl InReach<'_> {
     pub fn is_empty(&self) -> bool {
         self.groups.is_empty() && self.edges.is_empty() && self.corners.is_empty()
     }
-}
-
-/// A cell: what it lists, or eight smaller ones.
-#[derive(Debug, Clone, Copy, Default)]
-struct Node {
-    /// The first of its parts; 0 if it is not cut.
-    children: u32,
-    listed: Listed,
 }
 
 /// The fixed part of a world; shared by all clones of a simulation.
@@ -206,9 +209,10 @@ pub struct Terrain {
     inverse_cell: DVec3,
     /// How many of them there are along each axis.
     count: IVec3,
-    /// Cells: first the coarse ones in order, then their parts.
-    nodes: Vec<Node>,
-    lists: Lists,
+    /// What each coarse cell has in reach.
+    coarse: Coarse,
+    /// The coarse cells, each cut when a ball first comes there.
+    cuts: Vec<OnceLock<Box<Cut>>>,
     /// The main patch seen from above, if it is level.
     plans: Option<Plans>,
     /// Coarse cells around each, itself included, in which nothing is in reach; 0 where something
@@ -285,7 +289,7 @@ impl Terrain {
 
     /// Whether a mesh exists at all.
     pub fn has_mesh(&self) -> bool {
-        !self.nodes.is_empty()
+        !self.cuts.is_empty()
     }
 
     /// The number of the main patch.
@@ -295,7 +299,7 @@ impl Terrain {
 
     /// What a ball in a block can reach, if there is anything.
     pub fn in_block(&self, block: &Block) -> Option<InReach<'_>> {
-        block.listed.map(|listed| self.lists.of(&listed))
+        block.found.map(|found| self.cut(found.cell as usize).lists.of(&found.listed))
     }
 
     /// The plans of the main patch, for balls of that radius.

@@ -29,7 +29,7 @@ pub enum NameError {
         class: String,
     },
     /// The speed is none that a recording can stand for.
-    #[error("a speed of {speed} m/s is not between 0.05 and 30 m/s")]
+    #[error("a speed of {speed:?} m/s is not between 0.05 and 30 m/s")]
     Speed {
         /// What stands there.
         speed: String,

@@ -1,22 +1,27 @@
 //! What scenes leave out, and what this report does.
 
-use super::say;
+use super::{LeftOut, builds, say};
 use crate::cli::report::csv;
 use crate::cli::report::left_out::{COMPARED_S, Line};
 use crate::cli::report::measure::Measured;
 use hapticbillard::scene::PlanKind;
 use std::fmt::Write;
 
-/// The chapter.
-pub fn chapter(text: &mut String, lines: &[Line]) {
-    say!(text, "## What is left out costs nothing\n");
+/// What the chapter begins with.
+pub const HEADING: &str = "## What is left out costs nothing\n";
+
+/// The chapter; `made` says where its figures are from, if not from the same run.
+pub fn chapter(text: &mut String, left_out: &LeftOut<'_>, made: Option<&str>) {
+    let lines = left_out.scenes;
+    say!(text, "{HEADING}");
     say!(
         text,
-        "What a scene does not name does not exist. What there is, against the full game (the \
+        "{}What a scene does not name does not exist. What there is, against the full game (the \
          scene with most actors). Predictions are what the physics computed in {COMPARED_S} s (the \
          first ball is pushed where none moves): tests of pairs and of faces, closed forms of \
          flights and spins, looks for pockets; 0 means that the term does not exist. Memory and \
-         time are those of a process of its own that runs the physics for a millisecond.\n"
+         time are those of a process of its own that runs the physics for a millisecond.\n",
+        made.unwrap_or_default()
     );
     let full = lines.iter().max_by_key(|line| line.count(PlanKind::Actor));
     let most = full.map_or(0, |line| line.count(PlanKind::Actor));
@@ -70,6 +75,9 @@ pub fn chapter(text: &mut String, lines: &[Line]) {
         );
     }
     say!(text, "");
+    if let Some(builds) = left_out.builds {
+        builds::section(text, builds);
+    }
 }
 
 fn proof(text: &mut String, lines: &[Line]) {

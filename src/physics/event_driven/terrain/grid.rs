@@ -3,12 +3,15 @@
 //! Cells are as wide as a ball; where many things are in reach, as in a pocket, a cell is cut into
 //! eight, again and again. A cell lists what a ball with its centre in it can touch: nothing that
 //! is too far, no face that the centre is not over, and no edge or corner beside which something
-//! else is nearer wherever in the cell the centre is.
+//! else is nearer wherever in the cell the centre is. A cell is cut when a ball first comes there:
+//! most never are, and cutting all took most of the time and memory that a table needs.
 
+use super::coarse::Reach;
 use super::plan::Lists;
-use super::{Block, Group, Listed, Node, Terrain, bounds_of};
+use super::{Block, Found, Group, Listed, Terrain};
 use glam::{DVec3, IVec3};
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// Most cells along one axis; bounds the memory of huge meshes.
 const CELLS_MAX: i32 = 96;
@@ -17,7 +20,7 @@ const CELLS_MAX: i32 = 96;
 const CELLS_PER_PART: i32 = 16;
 
 /// A cell may be cut in two along each axis so many times.
-const CUTS: i32 = 3;
+pub(super) const CUTS: i32 = 3;
 
 /// A cell that lists more than this is cut, if it may be.
 const LISTED_MAX: usize = 24;
@@ -27,7 +30,7 @@ const LISTED_MAX: usize = 24;
 pub const BESIDE_M: f64 = 1e-4;
 
 /// What is in reach of a ball somewhere in a box.
-#[derive(Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Default, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Parts {
     /// Patches of which no border is in reach: wherever the centre is, its foot is inside.
     whole: Vec<u32>,
@@ -37,40 +40,90 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Adds other parts; each is listed once, in ascending order.
-    pub fn join(&mut self, other: Parts) {
-        for (list, more) in [
-            (&mut self.triangles, other.triangles),
-            (&mut self.edges, other.edges),
-            (&mut self.corners, other.corners),
-        ] {
-            list.extend(more);
+    /// A patch of which no border is in reach, and nothing else.
+    pub fn set_whole(&mut self, patch: u32) {
+        self.whole.push(patch);
+    }
+
+    pub fn clear(&mut self) {
+        for list in [&mut self.whole, &mut self.triangles, &mut self.edges, &mut self.corners] {
+            list.clear();
+        }
+    }
+
+    /// The same as `==`, and quicker for short lists.
+    pub fn is(&self, other: &Parts) -> bool {
+        let same =
+            |a: &[u32], b: &[u32]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a == b);
+        same(&self.triangles, &other.triangles)
+            && same(&self.edges, &other.edges)
+            && same(&self.corners, &other.corners)
+            && same(&self.whole, &other.whole)
+    }
+
+    /// Each once, in ascending order.
+    fn sort(&mut self) {
+        for list in [&mut self.triangles, &mut self.edges, &mut self.corners] {
             list.sort_unstable();
             list.dedup();
         }
     }
 
-    fn len(&self) -> usize {
-        self.triangles.len() + self.edges.len() + self.corners.len()
+    pub fn view(&self) -> Reach<'_> {
+        Reach { triangles: &self.triangles, edges: &self.edges, corners: &self.corners }
     }
+}
+
+/// A coarse cell, cut as finely as what is in its reach demands.
+#[derive(Debug, Default)]
+pub(super) struct Cut {
+    /// The cell itself, then its parts.
+    nodes: Vec<Node>,
+    pub lists: Lists,
+}
+
+/// A cell: what it lists, or eight smaller ones.
+#[derive(Debug, Clone, Copy, Default)]
+struct Node {
+    /// The first of its parts; 0 if it is not cut.
+    children: u32,
+    listed: Listed,
 }
 
 /// A box of space.
 pub(super) struct Space {
     pub middle: DVec3,
-    pub half: DVec3,
+    half: DVec3,
     /// How far from it a ball with its centre in it reaches [m].
-    pub reach_m: f64,
+    reach_m: f64,
+    /// No ball with its centre in it reaches farther than this from its middle [m].
+    far_m: f64,
+    /// See [`BESIDE_M`] [m].
+    beside_m: f64,
 }
 
 impl Space {
+    pub fn new(middle: DVec3, half: DVec3, reach_m: f64) -> Self {
+        Space { middle, half, reach_m, far_m: reach_m + half.length(), beside_m: BESIDE_M }
+    }
+
+    /// A box for what is to be asked of boxes of size `part` in it: whatever is in reach of one of
+    /// them is in reach of this one, rounding included.
+    pub fn of_parts(middle: DVec3, half: DVec3, part: DVec3, reach_m: f64) -> Self {
+        /// Far more than rounding adds [m].
+        const SLACK_M: f64 = 1e-9;
+        let far_m = reach_m + part.length() + (half - part).length() + SLACK_M;
+        let beside_m = BESIDE_M + SLACK_M;
+        Space { middle, half, reach_m: reach_m + SLACK_M, far_m, beside_m }
+    }
+
     /// How far it extends from its middle along a unit vector [m].
     fn along(&self, direction: DVec3) -> f64 {
         direction.abs().dot(self.half)
     }
 
     /// Whether a ball with its centre in it reaches a box.
-    fn reaches(&self, low: DVec3, high: DVec3) -> bool {
+    pub fn reaches(&self, low: DVec3, high: DVec3) -> bool {
         let reach = self.half + self.reach_m;
         low.cmple(self.middle + reach).all() && high.cmpge(self.middle - reach).all()
     }
@@ -101,18 +154,11 @@ impl Terrain {
         self.cell_m = size / self.count.as_dvec3();
         self.inverse_cell = self.count.as_dvec3() / size;
 
-        let cells = self.list_parts();
-        self.find_leaps(&cells);
-        self.plans = self.draw_plans(&cells, CUTS);
-        self.nodes = vec![Node::default(); cells.len()];
-        // What a cell's list took is free again before the next is filled.
-        let mut last = (Parts::default(), Listed::default());
-        for (index, parts) in cells.into_iter().enumerate() {
-            let low = self.cell_at(index) << CUTS;
-            self.fill(index, parts, low, 1 << CUTS, &mut last);
-        }
-        self.lists.shrink();
-        self.nodes.shrink_to_fit();
+        self.coarse = self.list_coarse();
+        self.find_leaps();
+        self.plans = self.draw_plans();
+        let cells = (self.count >> CUTS).element_product() as usize;
+        self.cuts.resize_with(cells, OnceLock::new);
     }
 
     /// The coarse cell with this number.
@@ -121,138 +167,148 @@ impl Terrain {
         IVec3::new(index % count.x, index / count.x % count.y, index / (count.x * count.y))
     }
 
-    /// What each coarse cell has in reach.
-    fn list_parts(&self) -> Vec<Parts> {
-        let count = self.count >> CUTS;
-        let mut cells: Vec<Parts> = Vec::new();
-        cells.resize_with(count.element_product() as usize, Parts::default);
-        for (number, triangle) in self.triangles.iter().enumerate() {
-            self.visit(triangle, |cell, space| {
-                if self.is_over(number as u32, space) {
-                    cells[cell].triangles.push(number as u32);
-                }
-            });
-        }
-        for (number, edge) in self.edges.iter().enumerate() {
-            let end = edge.from + edge.along * edge.length_m;
-            self.visit(&[edge.from, end], |cell, space| {
-                if self.is_at_edge(number as u32, space) {
-                    cells[cell].edges.push(number as u32);
-                }
-            });
-        }
-        for (number, corner) in self.corners.iter().enumerate() {
-            self.visit(&[corner.point], |cell, space| {
-                if self.is_at_corner(number as u32, space) {
-                    cells[cell].corners.push(number as u32);
-                }
-            });
-        }
-        cells
-    }
-
     /// Finds the main patch, and how far around each coarse cell nothing is in reach.
-    fn find_leaps(&mut self, cells: &[Parts]) {
+    fn find_leaps(&mut self) {
         // Which patch is named most often in cells that name nothing else.
         let mut alone: BTreeMap<u32, u32> = BTreeMap::new();
-        let patch_of = |triangle: &u32| self.faces[*triangle as usize];
-        let single = |parts: &Parts| {
-            let first = patch_of(parts.triangles.first()?);
-            let same = parts.triangles.iter().all(|triangle| patch_of(triangle) == first);
-            (same && parts.edges.is_empty() && parts.corners.is_empty()).then_some(first)
-        };
-        for patch in cells.iter().filter_map(single) {
+        let count = self.count >> CUTS;
+        let cells = || (0..count.element_product() as usize).map(|cell| self.coarse.of(cell));
+        for patch in cells().filter_map(|parts| self.only_patch(parts)) {
             *alone.entry(patch).or_default() += 1;
         }
         let most = alone.iter().max_by_key(|(patch, count)| (**count, u32::MAX - **patch));
         let main = most.map_or(u32::MAX, |(patch, _)| *patch);
-        let empty: Vec<bool> = cells.iter().map(|parts| parts.len() == 0).collect();
+        let empty: Vec<bool> = cells().map(|parts| parts.len() == 0).collect();
         let bare: Vec<bool> =
-            cells.iter().map(|parts| parts.len() == 0 || single(parts) == Some(main)).collect();
-        let count = self.count >> CUTS;
+            cells().map(|parts| parts.len() == 0 || self.only_patch(parts) == Some(main)).collect();
         self.main = main;
         self.empty = rings(&empty, count);
         self.bare = rings(&bare, count);
     }
 
+    /// A coarse cell, cut; the first who asks has it done.
+    pub(super) fn cut(&self, cell: usize) -> &Cut {
+        self.cuts[cell].get_or_init(|| {
+            let mut cut = Box::new(Cut { nodes: vec![Node::default()], lists: Lists::default() });
+            let mut last = (Parts::default(), Listed::default());
+            let (parts, low) = (self.coarse.of(cell), self.cell_at(cell) << CUTS);
+            self.fill(&mut cut, (0, 1 << CUTS), parts, low, &mut last);
+            cut.lists.shrink();
+            cut.nodes.shrink_to_fit();
+            cut
+        })
+    }
+
     /// Lists what a cell has in reach, or cuts it if that is too much. `last` is what was listed
     /// last: neighbours often list the same, and then once.
     fn fill(
-        &mut self,
-        node: usize,
-        parts: Parts,
+        &self,
+        cut: &mut Cut,
+        (node, size): (usize, i32),
+        parts: Reach,
         low: IVec3,
-        size: i32,
         last: &mut (Parts, Listed),
     ) {
         if size > 1 && parts.len() > LISTED_MAX {
-            let (first, half) = (self.nodes.len(), size / 2);
-            self.nodes[node].children = first as u32;
-            self.nodes.resize(first + 8, Node::default());
+            let (first, half) = (cut.nodes.len(), size / 2);
+            cut.nodes[node].children = first as u32;
+            cut.nodes.resize(first + 8, Node::default());
             for child in 0..8 {
                 let low = low + IVec3::new(child & 1, child >> 1 & 1, child >> 2) * half;
-                let space = self.space(low, half);
-                let kept = self.kept(&parts, &space);
-                self.fill(first + child as usize, kept, low, half, last);
+                let mut kept = Parts::default();
+                self.keep(parts, &self.space(low, half), &mut kept);
+                self.fill(cut, (first + child as usize, half), kept.view(), low, last);
             }
             return;
         }
-        let parts = self.with_whole(parts, &self.space(low, size));
+        let mut parts = Parts {
+            whole: Vec::new(),
+            triangles: parts.triangles.to_vec(),
+            edges: parts.edges.to_vec(),
+            corners: parts.corners.to_vec(),
+        };
+        self.find_whole(&mut parts, &self.space(low, size));
         if parts != last.0 {
-            let mut lists = core::mem::take(&mut self.lists);
-            let listed = self.list(&parts, &mut lists);
-            self.lists = lists;
+            let listed = self.list(&parts, &mut cut.lists);
             *last = (parts, listed);
         }
-        self.nodes[node] = Node { children: 0, listed: last.1 };
+        cut.nodes[node] = Node { children: 0, listed: last.1 };
     }
 
-    /// What of some parts a ball with its centre in `space` can touch.
-    pub(super) fn kept(&self, parts: &Parts, space: &Space) -> Parts {
-        Parts {
-            whole: Vec::new(),
-            triangles: kept(&parts.triangles, |part| self.is_over(part, space)),
-            edges: kept(&parts.edges, |part| self.is_at_edge(part, space)),
-            corners: kept(&parts.corners, |part| self.is_at_corner(part, space)),
-        }
+    /// Adds what of some parts a ball with its centre in `space` can touch.
+    pub(super) fn keep(&self, parts: Reach, space: &Space, kept: &mut Parts) {
+        let triangles = parts.triangles.iter().filter(|part| self.is_over(**part, space));
+        let edges = parts.edges.iter().filter(|part| self.is_at_edge(**part, space));
+        let corners = parts.corners.iter().filter(|part| self.is_at_corner(**part, space));
+        kept.triangles.extend(triangles);
+        kept.edges.extend(edges);
+        kept.corners.extend(corners);
     }
 
-    /// Parts with the triangles of a patch replaced by the patch, where no border of it is in
-    /// reach.
-    pub(super) fn with_whole(&self, mut parts: Parts, space: &Space) -> Parts {
+    /// The patch of all parts, if they are nothing else and reach no border of it.
+    pub(super) fn only_patch(&self, parts: Reach) -> Option<u32> {
         let patch_of = |triangle: &u32| self.faces[*triangle as usize];
-        let mut patches: Vec<u32> = parts.triangles.iter().map(patch_of).collect();
-        patches.sort_unstable();
-        patches.dedup();
+        let first = patch_of(parts.triangles.first()?);
+        let same = parts.triangles.iter().all(|triangle| patch_of(triangle) == first);
+        (same && parts.edges.is_empty() && parts.corners.is_empty()).then_some(first)
+    }
+
+    /// Whether a ball with its centre in `space` touches this patch wherever in it the centre is,
+    /// its foot being inside of one of these triangles, which belong to the patch.
+    pub(super) fn is_whole(&self, patch: u32, triangles: &[u32], space: &Space) -> bool {
+        self.is_in_height(patch, space)
+            && triangles.iter().any(|triangle| self.is_inside(*triangle, space.middle))
+    }
+
+    /// Whether the foot of the perpendicular from `point` is inside of a triangle.
+    fn is_inside(&self, triangle: u32, point: DVec3) -> bool {
+        self.sides[triangle as usize].iter().all(|side| side.inside_m(point) >= 0.0)
+    }
+
+    /// Whether a ball with its centre in `space` can touch the plane of a patch.
+    fn is_in_height(&self, patch: u32, space: &Space) -> bool {
+        let patch = &self.patches[patch as usize];
+        let height = patch.normal.dot(space.middle) - patch.offset;
+        height.abs() <= space.along(patch.normal) + space.reach_m
+    }
+
+    /// What of these layers of cells a ball with its centre in `space` can touch.
+    pub(super) fn keep_of(&self, layers: &[Reach], space: &Space) -> Parts {
+        let mut parts = Parts::default();
+        layers.iter().for_each(|layer| self.keep(*layer, space, &mut parts));
+        if layers.len() > 1 {
+            parts.sort();
+        }
+        parts
+    }
+
+    /// Replaces the triangles of a patch by the patch, where no border of it is in reach.
+    pub(super) fn find_whole(&self, parts: &mut Parts, space: &Space) {
+        let Parts { whole, triangles, edges, corners } = parts;
+        let patch_of = |triangle: &u32| self.faces[*triangle as usize];
+        whole.extend(triangles.iter().map(patch_of));
+        whole.sort_unstable();
+        whole.dedup();
         let bordered = |patch: u32| {
             let edge = |edge: &u32| {
                 self.edges[*edge as usize].sides.iter().any(|(side, _)| *side == patch)
             };
-            parts.edges.iter().any(edge)
-                || parts
-                    .corners
-                    .iter()
-                    .any(|corner| self.corners[*corner as usize].patches.contains(&patch))
+            let corner = |corner: &u32| self.corners[*corner as usize].patches.contains(&patch);
+            edges.iter().any(edge) || corners.iter().any(corner)
         };
         let over = |patch: u32| {
-            parts.triangles.iter().any(|triangle| {
-                patch_of(triangle) == patch
-                    && self.sides[*triangle as usize]
-                        .iter()
-                        .all(|side| side.inside_m(space.middle) >= 0.0)
+            triangles.iter().any(|triangle| {
+                patch_of(triangle) == patch && self.is_inside(*triangle, space.middle)
             })
         };
-        patches.retain(|patch| !bordered(*patch) && over(*patch));
-        parts.triangles.retain(|triangle| !patches.contains(&patch_of(triangle)));
-        parts.whole = patches;
-        parts
+        whole.retain(|patch| !bordered(*patch) && over(*patch));
+        triangles.retain(|triangle| !whole.contains(&patch_of(triangle)));
     }
 
     /// Forgets a patch, but not its edges.
-    pub(super) fn without(&self, mut parts: Parts, patch: u32) -> Parts {
+    pub(super) fn forget(&self, patch: u32, parts: &mut Parts) {
         parts.triangles.retain(|triangle| self.faces[*triangle as usize] != patch);
         parts.whole.retain(|other| *other != patch);
-        parts
     }
 
     /// Appends parts to `lists` and says where; triangles come patch by patch.
@@ -282,10 +338,10 @@ impl Terrain {
         }
     }
 
-    fn space(&self, low: IVec3, size: i32) -> Space {
+    pub(super) fn space(&self, low: IVec3, size: i32) -> Space {
         let half = 0.5 * f64::from(size) * self.cell_m;
         let middle = self.origin + low.as_dvec3() * self.cell_m + half;
-        Space { middle, half, reach_m: self.reach_m() }
+        Space::new(middle, half, self.reach_m())
     }
 
     /// How far a ball reaches, and a little more [m].
@@ -294,58 +350,34 @@ impl Terrain {
     }
 
     /// Whether a ball with its centre in `space` can touch a triangle, its foot being inside.
-    fn is_over(&self, triangle: u32, space: &Space) -> bool {
-        let patch = &self.patches[self.faces[triangle as usize] as usize];
-        let height = patch.normal.dot(space.middle) - patch.offset;
-        if height.abs() > space.along(patch.normal) + space.reach_m {
-            return false;
-        }
-        self.sides[triangle as usize]
-            .iter()
-            .all(|side| side.inside_m(space.middle) >= -space.along(side.inwards) - BESIDE_M)
+    pub(super) fn is_over(&self, triangle: u32, space: &Space) -> bool {
+        self.is_in_height(self.faces[triangle as usize], space)
+            && self.sides[triangle as usize].iter().all(|side| {
+                side.inside_m(space.middle) >= -space.along(side.inwards) - space.beside_m
+            })
     }
 
     /// Whether a ball with its centre in `space` can touch an edge, no face being nearer.
-    fn is_at_edge(&self, number: u32, space: &Space) -> bool {
+    pub(super) fn is_at_edge(&self, number: u32, space: &Space) -> bool {
         let edge = &self.edges[number as usize];
         let offset = space.middle - edge.from;
         let along = offset.dot(edge.along);
-        let beyond = space.along(edge.along) + BESIDE_M;
-        let beside =
-            |(_, inwards): &(u32, DVec3)| offset.dot(*inwards) > space.along(*inwards) + BESIDE_M;
-        let far = space.reach_m + space.half.length();
+        let beyond = space.along(edge.along) + space.beside_m;
+        let beside = |(_, inwards): &(u32, DVec3)| {
+            offset.dot(*inwards) > space.along(*inwards) + space.beside_m
+        };
         -beyond <= along
             && along <= edge.length_m + beyond
-            && offset.length_squared() - along * along <= far * far
+            && offset.length_squared() - along * along <= space.far_m * space.far_m
             && !edge.sides.iter().any(beside)
     }
 
     /// Whether a ball with its centre in `space` can touch a corner, no edge being nearer.
-    fn is_at_corner(&self, number: u32, space: &Space) -> bool {
+    pub(super) fn is_at_corner(&self, number: u32, space: &Space) -> bool {
         let corner = &self.corners[number as usize];
         let offset = space.middle - corner.point;
-        let far = space.reach_m + space.half.length();
-        let beside = |away: &DVec3| offset.dot(*away) > space.along(*away) + BESIDE_M;
-        offset.length_squared() <= far * far && !corner.away.iter().any(beside)
-    }
-
-    /// Calls `found` for each coarse cell from which a ball may reach the box around some points.
-    fn visit(&self, points: &[DVec3], mut found: impl FnMut(usize, &Space)) {
-        let (first, last) = bounds_of(points.iter().copied());
-        let reach = self.reach_m();
-        let count = self.count >> CUTS;
-        let low = (self.place_of(first - reach) >> CUTS).clamp(IVec3::ZERO, count - 1);
-        let high = (self.place_of(last + reach) >> CUTS).clamp(IVec3::ZERO, count - 1);
-        for z in low.z..=high.z {
-            for y in low.y..=high.y {
-                for x in low.x..=high.x {
-                    let space = self.space(IVec3::new(x, y, z) << CUTS, 1 << CUTS);
-                    if space.reaches(first, last) {
-                        found(((z * count.y + y) * count.x + x) as usize, &space);
-                    }
-                }
-            }
-        }
+        let beside = |away: &DVec3| offset.dot(*away) > space.along(*away) + space.beside_m;
+        offset.length_squared() <= space.far_m * space.far_m && !corner.away.iter().any(beside)
     }
 
     /// The smallest cell that holds `point`; outside of the grid its coordinates do not exist.
@@ -360,7 +392,7 @@ impl Terrain {
     /// the main patch left aside if `on_main` says that it carries the ball.
     pub fn block_at(&self, place: IVec3, on_main: bool) -> Block {
         let (cell, count) = (place >> CUTS, self.count >> CUTS);
-        let mut block = Block { listed: None, low: cell << CUTS, high: (cell << CUTS) + LAST };
+        let mut block = Block { found: None, low: cell << CUTS, high: (cell << CUTS) + LAST };
         if cell.cmplt(IVec3::ZERO).any() || cell.cmpge(count).any() {
             return block;
         }
@@ -372,15 +404,16 @@ impl Terrain {
             block.high = ((cell + around) << CUTS) + LAST;
             return block;
         }
-        let (mut node, mut size) = (index, 1 << CUTS);
-        while self.nodes[node].children > 0 {
+        let nodes = &self.cut(index).nodes;
+        let (mut node, mut size) = (&nodes[0], 1 << CUTS);
+        while node.children > 0 {
             size /= 2;
             let upper = place.cmpge(block.low + size);
-            node = self.nodes[node].children as usize + upper.bitmask() as usize;
+            node = &nodes[node.children as usize + upper.bitmask() as usize];
             block.low = IVec3::select(upper, block.low + size, block.low);
         }
         block.high = block.low + (size - 1);
-        block.listed = Some(self.nodes[node].listed);
+        block.found = Some(Found { cell: index as u32, listed: node.listed });
         block
     }
 
@@ -416,10 +449,6 @@ impl Terrain {
 /// The last of the smallest cells in a coarse one.
 const LAST: i32 = (1 << CUTS) - 1;
 
-fn kept(parts: &[u32], keeps: impl Fn(u32) -> bool) -> Vec<u32> {
-    parts.iter().copied().filter(|part| keeps(*part)).collect()
-}
-
 /// For each cell the number of rings around it, itself included, in which all cells are `free`.
 /// Beyond the grid everything is.
 fn rings(free: &[bool], count: IVec3) -> Vec<u8> {
@@ -431,13 +460,27 @@ fn rings(free: &[bool], count: IVec3) -> Vec<u8> {
         .map(|k| IVec3::new(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1))
         .filter(|n| n.z < 0 || n.z == 0 && (n.y < 0 || n.y == 0 && n.x < 0))
         .collect();
+    let strides: Vec<i32> =
+        neighbours.iter().map(|n| (n.z * count.y + n.y) * count.x + n.x).collect();
+    let total = count.x * count.y * count.z;
     for forwards in [true, false] {
-        let total = count.x * count.y * count.z;
         for step in 0..total {
             let place = if forwards { step } else { total - 1 - step };
+            if ring[place as usize] == 0 {
+                continue;
+            }
             let cell =
                 IVec3::new(place % count.x, place / count.x % count.y, place / (count.x * count.y));
             let mut least = ring[place as usize];
+            if cell.cmpge(IVec3::ONE).all() && cell.cmplt(count - 1).all() {
+                // All neighbours are in the grid.
+                for offset in &strides {
+                    let other = if forwards { place + offset } else { place - offset };
+                    least = least.min(ring[other as usize].saturating_add(1));
+                }
+                ring[place as usize] = least;
+                continue;
+            }
             for offset in &neighbours {
                 let other = if forwards { cell + *offset } else { cell - *offset };
                 if other.cmpge(IVec3::ZERO).all() && other.cmplt(count).all() {

@@ -16,8 +16,32 @@ struct Flat {
     border: SmallVec<[(u32, u32); 3]>,
 }
 
-/// The faces at each stretch of border, named by its ends in ascending order.
-type Around = BTreeMap<(u32, u32), SmallVec<[u32; 2]>>;
+/// The faces at each stretch of border, which is named by its ends in ascending order.
+struct Around(Vec<((u32, u32), u32)>);
+
+impl Around {
+    fn new(flats: &[Flat]) -> Self {
+        let stretches = |(number, flat): (u32, &Flat)| {
+            let named = |(a, b): &(u32, u32)| ((*a.min(b), *a.max(b)), number);
+            flat.border.iter().map(named).collect::<SmallVec<[_; 3]>>()
+        };
+        let mut around: Vec<_> = (0..).zip(flats).flat_map(stretches).collect();
+        around.sort_unstable();
+        Around(around)
+    }
+
+    /// Each stretch with its faces, in ascending order.
+    fn stretches(&self) -> impl Iterator<Item = &[((u32, u32), u32)]> {
+        self.0.chunk_by(|one, two| one.0 == two.0)
+    }
+
+    /// The faces at a stretch.
+    fn faces(&self, (a, b): (u32, u32)) -> impl Iterator<Item = u32> {
+        let ends = (a.min(b), a.max(b));
+        let first = self.0.partition_point(|(other, _)| *other < ends);
+        self.0[first..].iter().take_while(move |(other, _)| *other == ends).map(|(_, face)| *face)
+    }
+}
 
 /// How near to an edge a corner lies on it [m].
 const ON_EDGE_M: f64 = 1e-9;
@@ -25,8 +49,7 @@ const ON_EDGE_M: f64 = 1e-9;
 /// Merges coplanar neighbours into patches and finds edges and corners; returns each face's patch.
 pub(super) fn merge(mesh: &Mesh, terrain: &mut Terrain) -> Vec<u32> {
     let (points, mut flats) = weld(mesh);
-    cut_borders(&points, &mut flats);
-    let around = around(&flats);
+    let around = cut_borders(&points, &mut flats);
     let patch_of = spread(&points, &flats, &around, terrain);
     find_edges(&points, &flats, &around, &patch_of, terrain);
     terrain.triangles =
@@ -62,26 +85,17 @@ fn weld(mesh: &Mesh) -> (Vec<DVec3>, Vec<Flat>) {
     (points, flats)
 }
 
-fn around(flats: &[Flat]) -> Around {
-    let mut around = Around::new();
-    for (number, flat) in flats.iter().enumerate() {
-        for (a, b) in &flat.border {
-            around.entry((*a.min(b), *a.max(b))).or_default().push(number as u32);
-        }
-    }
-    around
-}
-
-/// Cuts open borders at the corners of neighbours: a large face beside two small ones.
-fn cut_borders(points: &[DVec3], flats: &mut [Flat]) {
-    let open: BTreeMap<(u32, u32), u32> = around(flats)
-        .into_iter()
-        .filter_map(|(ends, faces)| (faces.len() == 1).then_some((ends, faces[0])))
-        .collect();
-    let mut corners: Vec<u32> = open.keys().flat_map(|(a, b)| [*a, *b]).collect();
+/// Cuts open borders at the corners of neighbours: a large face beside two small ones. Returns the
+/// stretches that are left.
+fn cut_borders(points: &[DVec3], flats: &mut [Flat]) -> Around {
+    let around = Around::new(flats);
+    let open: Vec<((u32, u32), u32)> =
+        around.stretches().filter_map(|faces| (faces.len() == 1).then_some(faces[0])).collect();
+    let mut corners: Vec<u32> = open.iter().flat_map(|((a, b), _)| [*a, *b]).collect();
     let x = |corner: &u32| points[*corner as usize].x;
     corners.sort_unstable_by(|a, b| x(a).total_cmp(&x(b)).then(a.cmp(b)));
     corners.dedup();
+    let mut is_cut = false;
     for ((a, b), face) in open {
         let (from, to) = (points[a as usize], points[b as usize]);
         let Some(along) = (to - from).try_normalize() else { continue };
@@ -104,10 +118,12 @@ fn cut_borders(points: &[DVec3], flats: &mut [Flat]) {
         cuts.sort_unstable_by(|one, two| one.0.total_cmp(&two.0));
         let stops: Vec<u32> =
             [a].into_iter().chain(cuts.into_iter().map(|(_, corner)| corner)).chain([b]).collect();
+        is_cut = true;
         let border = &mut flats[face as usize].border;
         border.retain(|ends| *ends != (a, b) && *ends != (b, a));
         border.extend(stops.windows(2).map(|pair| (pair[0], pair[1])));
     }
+    if is_cut { Around::new(flats) } else { around }
 }
 
 /// Spreads from a first face to all neighbours that lie in its plane; returns each face's patch.
@@ -124,9 +140,9 @@ fn spread(points: &[DVec3], flats: &[Flat], around: &Around, terrain: &mut Terra
         patch_of[seed] = patch;
         let mut open = vec![seed];
         while let Some(face) = open.pop() {
-            for (a, b) in &flats[face].border {
-                for other in &around[&(*a.min(b), *a.max(b))] {
-                    let other = *other as usize;
+            for ends in &flats[face].border {
+                for other in around.faces(*ends) {
+                    let other = other as usize;
                     let flat = &flats[other];
                     let level = |corner: &u32| {
                         (normal.dot(points[*corner as usize]) - offset).abs() <= tolerance::MERGE_M
@@ -155,11 +171,13 @@ fn find_edges(
     terrain: &mut Terrain,
 ) {
     let mut ends: BTreeMap<u32, Corner> = BTreeMap::new();
-    for ((a, b), faces) in around {
-        let (from, to) = (points[*a as usize], points[*b as usize]);
+    for stretch in around.stretches() {
+        let (a, b) = stretch[0].0;
+        let faces: SmallVec<[u32; 2]> = stretch.iter().map(|(_, face)| *face).collect();
+        let (from, to) = (points[a as usize], points[b as usize]);
         let along = (to - from).normalize_or(DVec3::X);
         let mut sides: SmallVec<[(u32, DVec3); 2]> = SmallVec::new();
-        for face in faces {
+        for face in &faces {
             let flat = &flats[*face as usize];
             let across = |corner: u32| {
                 let offset = points[corner as usize] - from;
@@ -185,7 +203,7 @@ fn find_edges(
         let surfaces = faces.iter().map(|face| flats[*face as usize].surface);
         let surface = surfaces.max_by_key(|s| s.rank()).unwrap_or(Surface::Obstacle);
         if !flat {
-            for (end, away) in [(*a, along), (*b, -along)] {
+            for (end, away) in [(a, along), (b, -along)] {
                 let corner = ends.entry(end).or_insert_with(|| Corner {
                     point: points[end as usize],
                     patches: SmallVec::new(),

@@ -5,10 +5,13 @@
 //! The open bed is one of them, and so is the strip along a straight rail: most paths pass two.
 //! A second plan serves balls that hop a little.
 
-use super::grid::{Parts, Space};
+use super::coarse::Reach;
+use super::grid::{CUTS, Parts, Space};
 use super::{InReach, Listed, Terrain};
 use glam::{DVec2, DVec3, IVec2};
+use smallvec::SmallVec;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// So many cells of the plan lie along a coarse cell of the grid.
 const FINER: i32 = 4;
@@ -40,8 +43,9 @@ pub struct Plans {
     pub height_m: f64,
     /// For balls that the bed carries, which is left out of it.
     pub carried: Plan,
-    /// For balls whose centre is no higher than `top_m`, the bed included.
-    pub low: Plan,
+    /// For balls whose centre is no higher than `top_m`, the bed included; drawn when the first
+    /// ball hops.
+    low: OnceLock<Plan>,
     /// See `low` [m].
     pub top_m: f64,
 }
@@ -94,53 +98,77 @@ impl Plan {
 
 impl Terrain {
     /// Draws the plans of the main patch; there are none if it is not level.
-    pub(super) fn draw_plans(&self, coarse: &[Parts], shift: i32) -> Option<Plans> {
+    pub(super) fn draw_plans(&self) -> Option<Plans> {
         let main = self.patches.get(self.main as usize)?;
         if main.normal.z.abs() < 1.0 - LEVEL {
             return None;
         }
         let height_m = main.offset / main.normal.z + self.radius_m;
         let top_m = height_m + HOP_M;
-        let carried = self
-            .draw_plan(coarse, shift, (height_m, height_m), |parts| self.without(parts, self.main));
-        let low = self.draw_plan(coarse, shift, (height_m, top_m), |parts| parts);
-        Some(Plans { height_m, carried, low, top_m })
+        let carried = self.draw_plan((height_m, height_m), |parts| self.forget(self.main, parts));
+        Some(Plans { height_m, carried, low: OnceLock::new(), top_m })
+    }
+
+    /// The plan for balls that hop.
+    pub fn low_plan<'a>(&self, plans: &'a Plans) -> &'a Plan {
+        plans.low.get_or_init(|| self.draw_plan((plans.height_m, plans.top_m), |_| ()))
     }
 
     /// The plan for centres between two heights.
-    fn draw_plan(
-        &self,
-        coarse: &[Parts],
-        shift: i32,
-        (bottom_m, top_m): (f64, f64),
-        wanted: impl Fn(Parts) -> Parts,
-    ) -> Plan {
+    fn draw_plan(&self, (bottom_m, top_m): (f64, f64), change: impl Fn(&mut Parts)) -> Plan {
         let mut lists = Lists::default();
-        let cells = self.count >> shift;
-        let layer_at = |z: f64| self.place_of(DVec3::new(0.0, 0.0, z)).z >> shift;
+        let cells = self.count >> CUTS;
+        let layer_at = |z: f64| self.place_of(DVec3::new(0.0, 0.0, z)).z >> CUTS;
         let layers = layer_at(bottom_m).max(0)..=layer_at(top_m).min(cells.z - 1);
         let count = cells.truncate() * FINER;
-        let cell_m = self.cell_m.truncate() * f64::from(1 << shift) / f64::from(FINER);
+        let cell_m = self.cell_m.truncate() * f64::from(1 << CUTS) / f64::from(FINER);
         let half = (0.5 * cell_m).extend(0.5 * (top_m - bottom_m));
+        let whole = (0.5 * f64::from(FINER) * cell_m).extend(half.z);
         let centre_m = 0.5 * (top_m + bottom_m);
         let origin = self.origin.truncate();
 
         // What each cell lists, equal lists by one number.
-        let mut numbers: BTreeMap<Parts, u32> = BTreeMap::new();
+        let mut numbers: BTreeMap<Parts, u32> = BTreeMap::from([(Parts::default(), 0)]);
         let mut list_of = vec![0; count.element_product() as usize];
-        for y in 0..count.y {
-            for x in 0..count.x {
-                let middle = origin + (IVec2::new(x, y).as_dvec2() + 0.5) * cell_m;
-                let space =
-                    Space { middle: middle.extend(centre_m), half, reach_m: self.reach_m() };
-                let mut parts = Parts::default();
-                for z in layers.clone() {
-                    let index = (z * cells.y + y / FINER) * cells.x + x / FINER;
-                    parts.join(self.kept(&coarse[index as usize], &space));
+        let mut parts = Parts::default();
+        let mut last = (Parts::default(), 0);
+        for place in (0..cells.x * cells.y).map(|i| IVec2::new(i % cells.x, i / cells.x)) {
+            let index = |z| (z * cells.y + place.y) * cells.x + place.x;
+            let around: SmallVec<[Reach; 2]> =
+                layers.clone().map(|z| self.coarse.of(index(z) as usize)).collect();
+            if around.iter().all(|parts| parts.len() == 0) {
+                continue;
+            }
+            // What none of its parts has in reach is left aside at once.
+            let middle = origin + (place.as_dvec2() + 0.5) * (whole.truncate() * 2.0);
+            let space = Space::of_parts(middle.extend(centre_m), whole, half, self.reach_m());
+            let near = self.keep_of(&around, &space);
+            // On the open bed nothing else than a patch is in reach.
+            let alone = self.only_patch(near.view());
+            for part in (0..FINER * FINER).map(|i| IVec2::new(i % FINER, i / FINER)) {
+                let cell = place * FINER + part;
+                let middle = (origin + (cell.as_dvec2() + 0.5) * cell_m).extend(centre_m);
+                let space = Space::new(middle, half, self.reach_m());
+                parts.clear();
+                match alone {
+                    Some(patch) if self.is_whole(patch, near.view().triangles, &space) => {
+                        parts.set_whole(patch);
+                    }
+                    _ => {
+                        self.keep(near.view(), &space, &mut parts);
+                        self.find_whole(&mut parts, &space);
+                    }
                 }
-                let parts = wanted(self.with_whole(parts, &space));
-                let number = numbers.len() as u32;
-                list_of[(y * count.x + x) as usize] = *numbers.entry(parts).or_insert(number);
+                change(&mut parts);
+                if !parts.is(&last.0) {
+                    let next = numbers.len() as u32;
+                    let number = numbers.get(&parts).copied();
+                    last = (parts.clone(), number.unwrap_or(next));
+                    if number.is_none() {
+                        numbers.insert(parts.clone(), next);
+                    }
+                }
+                list_of[(cell.y * count.x + cell.x) as usize] = last.1;
             }
         }
         let mut listed = vec![Listed::default(); numbers.len()];

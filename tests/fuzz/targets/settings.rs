@@ -1,0 +1,43 @@
+use crate::bytes::{check_line, text};
+use hapticbillard::menu::{Range, Setting, Settings};
+use hapticbillard::scene::Scene;
+
+const ALL: [Setting; 11] = [
+    Setting::Game,
+    Setting::Table,
+    Setting::PlayerOne,
+    Setting::StrengthOne,
+    Setting::PlayerTwo,
+    Setting::StrengthTwo,
+    Setting::Language,
+    Setting::Volume,
+    Setting::MouseSpeed,
+    Setting::FullScreen,
+    Setting::AimAid,
+];
+
+pub fn run(data: &[u8]) {
+    let settings = match Settings::parse(&text(data)) {
+        Ok(settings) => settings,
+        Err(problem) => return check_line(&problem),
+    };
+    assert_eq!(Settings::parse(&settings.to_toml()).as_ref(), Ok(&settings));
+    for setting in ALL {
+        let place = settings.place(setting);
+        let last = match Settings::range(setting) {
+            Range::Choice(count) => count - 1,
+            Range::Scale(last) => last,
+        };
+        assert!(place <= last, "{setting:?}: {place}");
+        let mut moved = settings.clone();
+        moved.put(setting, place + 1);
+        assert_eq!(moved.place(setting), (place + 1).min(last), "{setting:?}");
+    }
+    assert!((0.0..10.0).contains(&settings.mouse_factor()));
+    assert!((0.0..10.0).contains(&settings.volume_factor()));
+    // The game that is set can be begun.
+    let mut scene = Scene::parse("game.toml", &settings.scene_text()).expect("a shipped scene");
+    for (section, entrant) in scene.players.iter_mut().zip(settings.entrants()) {
+        entrant.apply(section);
+    }
+}
