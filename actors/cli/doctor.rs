@@ -10,10 +10,10 @@ use serde::Serialize;
 use std::io::Write;
 
 const EXAMPLE: &str = "\
-Looks at everything that a game may need: the folders that it writes to, a display and OpenGL, sound,
-haptic devices, real-time rights; and plays a game to see that actors compute what lockstep does.
-Nothing is changed. What is missing is named with what would help; games go without it. The exit
-code is 1 only if something is broken that every game needs.
+Looks at everything that a game may need: the folders that it writes to, a display and OpenGL,
+sound, haptic devices, real-time rights; and plays a game to see that actors compute what lockstep
+does. Nothing is changed. What is missing is named with what would help; games go without it. The
+exit code is 1 only if something is broken that every game needs.
 
 Examples:
   hapticbillard doctor

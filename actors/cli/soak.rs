@@ -119,7 +119,8 @@ pub fn run(args: &SoakArgs, out: &mut dyn Write) -> Result<Status, Error> {
             Some(_) => bar.inc(1),
             None => bar.set_position(begin.elapsed().as_secs()),
         }
-        // Its threads are still there: what comes after would be disturbed by more than was planned.
+        // Its threads are still there: what comes after would be disturbed by more than was
+        // planned.
         if matches!(played.ended, Err(Wrong::Hangs)) {
             break;
         }

@@ -2,8 +2,9 @@
 
 use crate::cli::{folder, program, text};
 
-const BUILDS: &str = r#"{"starts": 20, "builds": [{"features": "none", "crates": 130,
-    "program": {"bytes": 9500000, "headless_start": {"user_ms": 31.2, "cpu_ms": 38.0, "peak_kib": 20480},
+const BUILDS: &str = r#"{"starts": 20, "builds": [
+    {"features": "none", "crates": 130, "program": {"bytes": 9500000,
+    "headless_start": {"user_ms": 31.2, "cpu_ms": 38.0, "peak_kib": 20480},
     "one_ball": {"user_ms": 3.4, "cpu_ms": 5.0, "peak_kib": 9000},
     "game": {"user_ms": 60.0, "cpu_ms": 66.0, "peak_kib": 25600}}},
     {"features": "sound", "crates": 149, "program": null}]}"#;
