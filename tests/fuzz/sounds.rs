@@ -8,12 +8,14 @@ use hapticbillard_actors::sound::bank_files::add_bytes;
 
 /// Rates of streams [Hz].
 const RATES_HZ: [u32; 4] = [48_000, 44_100, 8_000, 192_000];
+/// No file system has longer names [bytes].
+const NAME_MAX: usize = 255;
 
 /// A byte that chooses the rate of the stream, a line with the name, then the file.
 pub fn run(data: &[u8]) {
     let (choice, data) = chosen(data);
     let rate_hz = RATES_HZ[choice % RATES_HZ.len()];
-    let end = data.iter().position(|byte| *byte == b'\n').unwrap_or(data.len());
+    let end = data.iter().position(|byte| *byte == b'\n').unwrap_or(data.len()).min(NAME_MAX);
     let (name, file) = data.split_at(end);
     let name: ClipName = match String::from_utf8_lossy(name).parse() {
         Ok(name) => name,
