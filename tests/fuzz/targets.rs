@@ -31,8 +31,11 @@ pub mod strokes;
 /// What a scene names, made and begun.
 pub mod worlds;
 
+/// A name, and what is run.
+type Target = (&'static str, fn(&[u8]));
+
 /// Every target that needs nothing but the core, by name.
-pub const TARGETS: [(&str, fn(&[u8])); 13] = [
+pub const TARGETS: [Target; 13] = [
     ("device_recordings", device_recordings::run),
     ("facts", facts::run),
     ("haply", haply::run),
