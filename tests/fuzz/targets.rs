@@ -31,11 +31,11 @@ pub mod strokes;
 /// What a scene names, made and begun.
 pub mod worlds;
 
-/// What bytes are given to.
-pub type Run = fn(&[u8]);
+/// A name, and what is run.
+type Target = (&'static str, fn(&[u8]));
 
 /// Every target that needs nothing but the core, by name.
-pub const TARGETS: [(&str, Run); 13] = [
+pub const TARGETS: [Target; 13] = [
     ("device_recordings", device_recordings::run),
     ("facts", facts::run),
     ("haply", haply::run),
