@@ -18,7 +18,7 @@ export XDG_RUNTIME_DIR="$folder/run" LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=:88
 mkdir -p "$XDG_RUNTIME_DIR"
 chmod 700 "$XDG_RUNTIME_DIR"
 
-Xvfb $DISPLAY -screen 0 1024x640x24 -nolisten tcp -noreset >xvfb.log 2>&1 &
+Xvfb $DISPLAY -screen 0 1280x720x24 -nolisten tcp -noreset >xvfb.log 2>&1 &
 xvfb=$!
 pulseaudio -n --daemonize=no --exit-idle-time=-1 --log-target=file:pulse.log \
   -L module-native-protocol-unix -L "module-null-sink sink_name=paced" &
