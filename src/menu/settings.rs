@@ -251,6 +251,23 @@ pub enum Setting {
     AimAid,
 }
 
+impl Setting {
+    /// All.
+    pub const ALL: [Setting; 11] = [
+        Setting::Game,
+        Setting::Table,
+        Setting::PlayerOne,
+        Setting::StrengthOne,
+        Setting::PlayerTwo,
+        Setting::StrengthTwo,
+        Setting::Language,
+        Setting::Volume,
+        Setting::MouseSpeed,
+        Setting::FullScreen,
+        Setting::AimAid,
+    ];
+}
+
 /// What a setting can be: numbered places, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Range {
@@ -258,6 +275,16 @@ pub enum Range {
     Choice(usize),
     /// A scale up to this place.
     Scale(usize),
+}
+
+impl Range {
+    /// The last place.
+    pub fn last(self) -> usize {
+        match self {
+            Range::Choice(count) => count.saturating_sub(1),
+            Range::Scale(last) => last,
+        }
+    }
 }
 
 const TABLES: [TableChoice; 3] =
@@ -324,11 +351,7 @@ impl Settings {
 
     /// Puts a setting at a place of its range; beyond it, at its end.
     pub fn put(&mut self, setting: Setting, place: usize) {
-        let last = match Self::range(setting) {
-            Range::Choice(count) => count.saturating_sub(1),
-            Range::Scale(last) => last,
-        };
-        let place = place.min(last);
+        let place = place.min(Self::range(setting).last());
         // No scale has more places than a byte holds.
         let steps = u8::try_from(place).unwrap_or(u8::MAX);
         match setting {

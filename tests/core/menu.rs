@@ -16,20 +16,6 @@ use hapticbillard::scene::{PlayerKind, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-const SETTINGS: [Setting; 11] = [
-    Setting::Game,
-    Setting::Table,
-    Setting::PlayerOne,
-    Setting::StrengthOne,
-    Setting::PlayerTwo,
-    Setting::StrengthTwo,
-    Setting::Language,
-    Setting::Volume,
-    Setting::MouseSpeed,
-    Setting::FullScreen,
-    Setting::AimAid,
-];
-
 fn menu() -> Menu {
     Menu::new(Pages::shipped().unwrap(), Settings::default())
 }
@@ -102,7 +88,7 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
         let mut menu = menu();
         for name in ["mode", "options"] {
             menu.open(name);
-            for setting in SETTINGS {
+            for setting in Setting::ALL {
                 for place in 0..places(setting) {
                     menu.settings.put(setting, place);
                     let panel = MenuPanel::new(&menu, words).unwrap();
@@ -117,7 +103,7 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
 #[test]
 fn every_place_of_every_setting_is_kept() {
     let mut settings = Settings::default();
-    for setting in SETTINGS {
+    for setting in Setting::ALL {
         for place in (0..places(setting)).rev() {
             settings.put(setting, place);
             assert_eq!(settings.place(setting), place, "{setting:?}");

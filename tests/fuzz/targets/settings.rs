@@ -1,20 +1,6 @@
 use crate::bytes::{check_line, text};
-use hapticbillard::menu::{Range, Setting, Settings};
+use hapticbillard::menu::{Setting, Settings};
 use hapticbillard::scene::Scene;
-
-const ALL: [Setting; 11] = [
-    Setting::Game,
-    Setting::Table,
-    Setting::PlayerOne,
-    Setting::StrengthOne,
-    Setting::PlayerTwo,
-    Setting::StrengthTwo,
-    Setting::Language,
-    Setting::Volume,
-    Setting::MouseSpeed,
-    Setting::FullScreen,
-    Setting::AimAid,
-];
 
 pub fn run(data: &[u8]) {
     let settings = match Settings::parse(&text(data)) {
@@ -22,12 +8,9 @@ pub fn run(data: &[u8]) {
         Err(problem) => return check_line(&problem),
     };
     assert_eq!(Settings::parse(&settings.to_toml()).as_ref(), Ok(&settings));
-    for setting in ALL {
+    for setting in Setting::ALL {
         let place = settings.place(setting);
-        let last = match Settings::range(setting) {
-            Range::Choice(count) => count - 1,
-            Range::Scale(last) => last,
-        };
+        let last = Settings::range(setting).last();
         assert!(place <= last, "{setting:?}: {place}");
         let mut moved = settings.clone();
         moved.put(setting, place + 1);
