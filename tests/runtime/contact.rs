@@ -25,8 +25,8 @@ const LEAN_N: f64 = 0.15;
 const DOWN_M_S: f64 = 0.02;
 /// It waits until the start ramp is over [s].
 const START_S: f64 = 3.0;
-/// The ramp after an interruption takes half a second; most of that passes [s].
-const RAMP_S: f64 = 0.4;
+/// The ramp after an interruption takes half a second [s].
+const RAMP_S: f64 = 0.5;
 
 /// What test and device know of each other.
 #[derive(Default)]
@@ -40,15 +40,14 @@ struct Wires {
     leans: AtomicBool,
     /// Force of the last tick [N], as bits.
     force: AtomicU64,
-    /// What it is pushed with while nothing fails [N], as bits.
-    full: AtomicU64,
+    /// The most that it was ever pushed with [N], as bits.
+    most: AtomicU64,
     /// Ticks in which it was pushed although it had said that it is lost, or no numbers.
     pushed_broken: AtomicU64,
     /// The most ticks in a row in which it was pushed although nobody held the dead man's switch.
     pushed_alone: AtomicU64,
-    /// Time from the last tick without force to the first with most of it [s], as bits: of the last
-    /// time that it came back.
-    rise: AtomicU64,
+    /// The steepest that the force ever rose from zero [N/s], as bits.
+    steepest: AtomicU64,
 }
 
 impl Wires {
@@ -56,12 +55,14 @@ impl Wires {
         f64::from_bits(self.force.load(Ordering::SeqCst))
     }
 
-    fn full_n(&self) -> f64 {
-        f64::from_bits(self.full.load(Ordering::SeqCst))
-    }
-
-    fn rise_s(&self) -> f64 {
-        f64::from_bits(self.rise.load(Ordering::SeqCst))
+    /// The force never rose faster than a ramp to the most of it does. (A loop that comes late
+    /// carries less stiffness for a while: the time until there is most of the force says nothing.)
+    #[track_caller]
+    fn rose_softly(&self) {
+        let of = |bits: &AtomicU64| f64::from_bits(bits.load(Ordering::SeqCst));
+        let (most, steepest) = (of(&self.most), of(&self.steepest));
+        assert!(most > LEAN_N && steepest > 0.0, "{most} N, {steepest} N/s");
+        assert!(steepest < 1.02 * most / RAMP_S, "{steepest} N/s up to {most} N");
     }
 }
 
@@ -75,7 +76,6 @@ struct Leaning {
     time_s: f64,
     /// Time since there was no force [s].
     since_s: f64,
-    has_risen: bool,
 }
 
 impl Device for Leaning {
@@ -116,11 +116,18 @@ impl Device for Leaning {
         self.alone = if force_n > 0.0 && !is_held { self.alone + 1 } else { 0 };
         wires.pushed_alone.fetch_max(self.alone, Ordering::SeqCst);
         if force_n == 0.0 {
-            (self.since_s, self.has_risen) = (0.0, false);
-        } else if force_n > 0.9 * wires.full_n() && !self.has_risen {
-            self.has_risen = true;
-            wires.rise.store(self.since_s.to_bits(), Ordering::SeqCst);
+            self.since_s = 0.0;
+        } else {
+            raise(&wires.most, force_n);
+            raise(&wires.steepest, force_n / self.since_s);
         }
+    }
+}
+
+/// Nobody else writes it.
+fn raise(most: &AtomicU64, to: f64) {
+    if to > f64::from_bits(most.load(Ordering::SeqCst)) {
+        most.store(to.to_bits(), Ordering::SeqCst);
     }
 }
 
@@ -163,7 +170,6 @@ impl Game {
             alone: 0,
             time_s: 0.0,
             since_s: 0.0,
-            has_risen: false,
         };
         let plan = Plan {
             opened: Opened::new(device),
@@ -197,9 +203,9 @@ impl Game {
     fn wait_for(&self, what: &str, is_so: impl Fn(&Wires) -> bool) {
         let start = Instant::now();
         while !is_so(&self.wires) {
-            let (force, full) = (self.wires.force_n(), self.wires.full_n());
+            let force = self.wires.force_n();
             let is_late = start.elapsed() > Duration::from_secs(60);
-            assert!(!is_late, "in vain: {what}; {force} N of {full} N");
+            assert!(!is_late, "in vain: {what}; {force} N");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
@@ -212,19 +218,14 @@ impl Game {
             let before = wires.force_n();
             std::thread::sleep(Duration::from_millis(300));
             let now = wires.force_n();
-            let is_steady = before > 0.9 * LEAN_N && (now - before).abs() < 1e-3 * now;
             // A busy machine lets the servo come late, which takes the force away for a while.
-            if is_steady {
-                wires.full.store(now.to_bits(), Ordering::SeqCst);
-            }
-            is_steady
+            before > 0.1 * LEAN_N && (now - before).abs() < 1e-3 * now
         });
     }
 
     #[track_caller]
     fn wait_for_nothing(&self) {
         self.wait_for("no force", |wires| wires.force_n() == 0.0);
-        self.wires.rise.store(0.0_f64.to_bits(), Ordering::SeqCst);
     }
 
     /// Waits until the player was told of a failure for this reason.
@@ -242,13 +243,11 @@ impl Game {
         self.wait_for(of, |_| heard().iter().any(|reason| reason.contains(of)));
     }
 
-    /// The force came back slowly.
+    /// The force comes back, and slowly.
     #[track_caller]
     fn comes_back_softly(&self) {
-        self.wait_for("the rise", |wires| wires.rise_s() > 0.0);
-        let rise_s = self.wires.rise_s();
-        assert!(rise_s > RAMP_S, "{rise_s} s");
         self.wait_for_lean();
+        self.wires.rose_softly();
     }
 
     fn end(mut self) {
