@@ -31,7 +31,7 @@ pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list
 pub use haply::NoHaply;
 pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
-    AllPorts, Balls, ButtonEdge, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
+    AllPorts, Balls, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
     Watch, WorldPort,
 };
 pub use recording::{DeviceRecorder, Recorded, load as load_recording};

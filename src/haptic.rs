@@ -38,6 +38,8 @@ mod transient;
 
 mod effect_force;
 
+mod anchor;
+
 mod safety;
 
 pub mod simulated;
@@ -53,6 +55,7 @@ mod rehearsal;
 
 pub mod telemetry;
 
+pub use anchor::{Anchor, Anchors, Leads, THRESHOLD_M, WHEEL_STIFFNESS_N_M};
 pub use device::{Buttons, Device, DeviceSpec, DeviceState, DeviceStatus, Force};
 pub use effect::{EFFECTS_MAX, Effect, EffectSet, Region};
 pub use inverse3::{Format, INVERSE3, Inverse3, Inverse3Trouble};
@@ -64,7 +67,7 @@ pub use recording::{
 };
 pub use rehearsal::Rehearsal;
 pub use report::{
-    ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
+    ButtonEdge, ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
 };
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;

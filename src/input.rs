@@ -35,6 +35,12 @@ pub use hand_over::StylusWord;
 mod human;
 pub use human::{Human, STYLUS};
 
+mod drive;
+pub use drive::{CameraHand, Drive, Steering};
+
+mod pointing;
+pub use pointing::{Pointing, StylusMouse, StylusSays};
+
 mod mouse_split;
 pub use mouse_split::{MouseSplit, Reader};
 

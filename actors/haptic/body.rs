@@ -1,9 +1,9 @@
 //! The body of the servo's loop: one reading, one tick, one force. It needs no thread and no clock,
 //! and never allocates, locks, logs or waits.
 
-use super::ports::{ButtonEdge, Orders, ServoPorts, TickTold};
+use super::ports::{Orders, ServoPorts, TickTold};
 use hapticbillard::haptic::{
-    Buttons, Device, Force, HapticScene, Servo, ServoReport, StylusSample,
+    Anchors, ButtonEdge, Buttons, Device, Force, HapticScene, Servo, ServoReport, StylusSample,
 };
 use hapticbillard::units::Seconds;
 
@@ -16,6 +16,7 @@ pub struct Body {
     servo: Servo,
     scene: HapticScene,
     ports: ServoPorts,
+    anchors: Anchors,
     stiffness_n_m: f64,
     stiffness_wanted_n_m: f64,
     held: Buttons,
@@ -28,13 +29,14 @@ pub struct Body {
 impl Body {
     /// Joins them.
     pub fn new(device: Box<dyn Device>, mut servo: Servo, mut ports: ServoPorts) -> Self {
-        let Orders { effects, reach, stiffness_max_n_m } = *ports.orders.read();
+        let stiffness_max_n_m = ports.orders.read().stiffness_max_n_m;
         servo.limit_stiffness(stiffness_max_n_m);
         Body {
             device,
             servo,
-            scene: HapticScene { effects, reach, ..HapticScene::default() },
+            scene: HapticScene::default(),
             ports,
+            anchors: Anchors::default(),
             stiffness_n_m: stiffness_max_n_m,
             stiffness_wanted_n_m: stiffness_max_n_m,
             held: Buttons::default(),
@@ -67,6 +69,9 @@ impl Body {
     pub fn turn(&mut self, dt: Seconds) -> &ServoReport {
         self.hear(dt);
         let state = self.device.read(dt);
+        self.anchors.step(&state, self.ports.signs.leads());
+        let Orders { effects, reach, .. } = self.ports.orders.output_buffer();
+        self.anchors.apply(effects, *reach, &mut self.scene);
         let force = self.servo.tick(&state, &self.scene, dt);
         self.device.write(force);
         let report = *self.servo.report();
@@ -80,9 +85,7 @@ impl Body {
     /// Takes what is new from outside.
     fn hear(&mut self, dt: Seconds) {
         if self.ports.orders.update() {
-            let Orders { effects, reach, stiffness_max_n_m } = *self.ports.orders.output_buffer();
-            (self.scene.effects, self.scene.reach) = (effects, reach);
-            self.stiffness_wanted_n_m = stiffness_max_n_m;
+            self.stiffness_wanted_n_m = self.ports.orders.output_buffer().stiffness_max_n_m;
         }
         if self.ports.balls.update() {
             let balls = self.ports.balls.output_buffer();
@@ -109,7 +112,9 @@ impl Body {
             let button = Buttons(1 << bit);
             for (edges, down) in [(pressed, true), (released, false)] {
                 let edge = ButtonEdge { tick, button, down };
-                if edges.has(button) && self.ports.buttons.push(edge).is_err() {
+                if let Some(told) = self.ports.buttons.as_mut().filter(|_| edges.has(button))
+                    && told.push(edge).is_err()
+                {
                     self.ports.timing.lose_button();
                 }
             }

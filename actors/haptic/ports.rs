@@ -8,7 +8,7 @@
 //! | [`Signs`] to the control | how far the mouse has turned the workspace | sums count |
 //! | report out | everything about the last tick | the newest counts |
 //! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
-//! | edges out | every press and release, in order | the same; a sample tells what is held |
+//! | edges out | every press and release, in order, for a window | the same; a sample tells what is held |
 //! | picture out | the same as the report, for a window | the newest counts |
 //! | telemetry out | everything about every tick | the oldest stay, loss is counted |
 
@@ -16,12 +16,15 @@ use super::timing::Timing;
 use glam::DVec2;
 use hapticbillard::ball::Ball;
 use hapticbillard::haptic::{
-    BALLS_MAX, Buttons, EffectSet, HapticBall, Reach, ServoReport, StylusSample,
+    BALLS_MAX, ButtonEdge, EffectSet, HapticBall, Leads, Reach, ServoReport, StylusSample,
 };
 use hapticbillard::physics::Snapshot;
 use hapticbillard::units::Seconds;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering};
+
+/// By their code; the first is the usual one.
+const LEADS: [Leads; 3] = [Leads::Cue, Leads::Camera, Leads::Pointer];
 
 /// Samples that wait at most: a quarter of a second.
 const SAMPLES: usize = 256;
@@ -74,6 +77,7 @@ pub struct Signs {
     seen: AtomicU64,
     /// To the left and upwards since the start [rad], as bits.
     turned: [AtomicU64; 2],
+    leads: AtomicU8,
 }
 
 impl Signs {
@@ -112,6 +116,18 @@ impl Signs {
         DVec2::new(left, up)
     }
 
+    /// What the stylus is for from now on.
+    pub fn lead(&self, leads: Leads) {
+        let code = LEADS.iter().position(|one| *one == leads).unwrap_or_default();
+        self.leads.store(code as u8, Ordering::Relaxed);
+    }
+
+    /// What it is for.
+    pub fn leads(&self) -> Leads {
+        let code = usize::from(self.leads.load(Ordering::Relaxed));
+        LEADS.get(code).copied().unwrap_or_default()
+    }
+
     /// Physics has taken in the samples up to this one.
     pub fn see(&self, sample: u64) {
         self.seen.store(sample, Ordering::Release);
@@ -121,17 +137,6 @@ impl Signs {
     pub fn seen(&self) -> u64 {
         self.seen.load(Ordering::Acquire)
     }
-}
-
-/// A press or a release.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ButtonEdge {
-    /// Which tick of the servo.
-    pub tick: u64,
-    /// Which button.
-    pub button: Buttons,
-    /// Pressed, not released.
-    pub down: bool,
 }
 
 /// A tick as telemetry has it.
@@ -148,10 +153,21 @@ pub struct TickTold {
 pub struct Watch {
     /// The newest tick, for a picture.
     pub picture: Option<triple_buffer::Input<ServoReport>>,
+    /// Every press and release, for a window.
+    pub buttons: Option<rtrb::Producer<ButtonEdge>>,
     /// Every tick, for a file.
     pub telemetry: Option<rtrb::Producer<TickTold>>,
     /// Where punctuality is counted.
     pub timing: Arc<Timing>,
+}
+
+impl Watch {
+    /// The same where somebody hears of every press and release; and that end.
+    pub fn with_buttons(mut self) -> (Self, rtrb::Consumer<ButtonEdge>) {
+        let (told, heard) = rtrb::RingBuffer::new(EDGES);
+        self.buttons = Some(told);
+        (self, heard)
+    }
 }
 
 /// The servo's end.
@@ -161,7 +177,7 @@ pub struct ServoPorts {
     pub(super) signs: Arc<Signs>,
     pub(super) report: triple_buffer::Input<ServoReport>,
     pub(super) samples: rtrb::Producer<StylusSample>,
-    pub(super) buttons: rtrb::Producer<ButtonEdge>,
+    pub(super) buttons: Option<rtrb::Producer<ButtonEdge>>,
     pub(super) picture: Option<triple_buffer::Input<ServoReport>>,
     pub(super) telemetry: Option<rtrb::Producer<TickTold>>,
     pub(super) timing: Arc<Timing>,
@@ -181,9 +197,7 @@ pub struct ControlPorts {
 pub struct StylusPorts {
     /// Every sample, while they are taken.
     pub samples: rtrb::Consumer<StylusSample>,
-    /// Every button edge.
-    pub buttons: rtrb::Consumer<ButtonEdge>,
-    /// Where it says what physics has seen.
+    /// Where it says what physics has seen, and what the stylus is for.
     pub signs: Arc<Signs>,
 }
 
@@ -237,13 +251,12 @@ impl AllPorts {
 
     /// The same while somebody looks on.
     pub fn watched(orders: Orders, mut bodies: Vec<Ball>, watch: Watch) -> Self {
-        let Watch { picture, telemetry, timing } = watch;
+        let Watch { picture, buttons, telemetry, timing } = watch;
         bodies.sort_by_key(|ball| ball.id);
         let (orders_in, orders_out) = triple_buffer::triple_buffer(&orders);
         let (balls_in, balls_out) = triple_buffer::triple_buffer(&Balls::default());
         let (report_in, report_out) = triple_buffer::triple_buffer(&ServoReport::default());
         let (samples_in, samples_out) = rtrb::RingBuffer::new(SAMPLES);
-        let (edges_in, edges_out) = rtrb::RingBuffer::new(EDGES);
         let signs = Arc::new(Signs::default());
         AllPorts {
             servo: ServoPorts {
@@ -252,13 +265,13 @@ impl AllPorts {
                 signs: signs.clone(),
                 report: report_in,
                 samples: samples_in,
-                buttons: edges_in,
+                buttons,
                 picture,
                 telemetry,
                 timing: timing.clone(),
             },
             control: ControlPorts { orders: orders_in, report: report_out, timing },
-            stylus: StylusPorts { samples: samples_out, buttons: edges_out, signs: signs.clone() },
+            stylus: StylusPorts { samples: samples_out, signs: signs.clone() },
             world: WorldPort { serial: 0, bodies, balls: balls_in, signs: signs.clone() },
             signs,
         }

@@ -4,7 +4,7 @@
 
 use super::body::Body;
 use super::ports::{ControlPorts, Signs, StylusPorts, Watch, WorldPort};
-use super::rights::{Asked, Obtained, Refusal};
+use super::rights::{Asked, Core, Obtained, Refusal};
 use super::thread::{NoServo, ServoThread};
 use super::timing::Timing;
 use super::turns::{Called, Explain, Turns};
@@ -39,6 +39,15 @@ pub struct Plan {
     pub lay: Option<Lay>,
     /// The balls that there can be.
     pub bodies: Vec<Ball>,
+}
+
+impl Plan {
+    /// A device that is heard and never pushed: nothing of the operating system is asked for.
+    pub fn idle(opened: Opened) -> Self {
+        let asked = Asked { core: Core::Any, priority: None, lock_memory: false, spin_us: 0 };
+        let (mesh, reach, lay, bodies) = (None, None, None, Vec::new());
+        Plan { opened, asked, mesh, effects: EffectSet::default(), reach, lay, bodies }
+    }
 }
 
 /// How a workspace is laid to the cue ball.

@@ -89,7 +89,8 @@ impl FeltScreen {
             | HumanMode::Stroking
             | HumanMode::Paused => false,
         };
-        let is_away = !self.leads || is_elsewhere;
+        // An eye that the stylus leads is where it was led to.
+        let is_away = !self.leads || is_elsewhere || view.look.free;
         let wanted = match report.workspace {
             Some(workspace) if !is_away && !view.look.bird => {
                 self.eye.behind(&workspace, &view.look, world.is_rolling())

@@ -25,7 +25,7 @@ pub(super) struct Workspace {
     azimuth_rad: f64,
     elevation_rad: f64,
     stroke: Option<Stroke>,
-    was_held: bool,
+    was_down: bool,
     /// How far the tip still is from where the device is, after a stroke, and for how long.
     away: DVec3,
     away_s: Seconds,
@@ -72,7 +72,7 @@ impl Workspace {
             azimuth_rad: 0.0,
             elevation_rad: 0.0,
             stroke: None,
-            was_held: false,
+            was_down: false,
             away: DVec3::ZERO,
             away_s: 0.0,
         }
@@ -100,7 +100,7 @@ impl Workspace {
     ) -> Placed {
         let is_new = self.laid.is_none_or(|laid| laid.serial != reach.serial);
         if is_new {
-            *self = Workspace { was_held: self.was_held, ..Workspace::new() };
+            *self = Workspace { was_down: self.was_down, ..Workspace::new() };
             (self.azimuth_rad, self.elevation_rad) = (reach.azimuth_rad, reach.elevation_rad);
         }
         // The pivot holds until it is laid anew; what else is asked for may change at any time.
@@ -116,9 +116,12 @@ impl Workspace {
         let mapped = pivot + turn * (device.position - ball) * reach.scale;
         let pointing = (turn * device.pointing()).normalize_or(-turn.z_axis);
 
-        let is_held = device.buttons.has(Buttons::FRONT) && reach.cue.is_some();
-        let is_pressed = is_held && !std::mem::replace(&mut self.was_held, is_held);
-        if is_pressed {
+        let is_down = device.buttons.has(Buttons::FRONT);
+        let was_down = std::mem::replace(&mut self.was_down, is_down);
+        let is_pressed = is_down && !was_down;
+        // A button that was pressed for something else begins no stroke.
+        let is_held = is_down && reach.cue.is_some();
+        if is_pressed && is_held {
             self.stroke = Some(Stroke {
                 tip: if is_new { mapped } else { tip },
                 device: device.position,

@@ -1,6 +1,7 @@
 //! What the servo tells of a tick: one plain value, for slots, rings and files.
 
-use super::device::{DeviceState, Force};
+use super::anchor::Anchor;
+use super::device::{Buttons, DeviceState, Force};
 use crate::cue::CuePiece;
 use crate::ids::BallId;
 use crate::units::Seconds;
@@ -26,6 +27,8 @@ pub struct StylusSample {
     pub direction: DVec3,
     /// The stroke stabiliser holds: the tip moves along its shaft.
     pub stabilised: bool,
+    /// What holds the hand while it leads no cue.
+    pub anchor: Option<Anchor>,
 }
 
 impl StylusSample {
@@ -51,6 +54,17 @@ impl StylusSample {
             direction_end: self.direction,
         }
     }
+}
+
+/// A press or a release.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ButtonEdge {
+    /// Which tick of the servo.
+    pub tick: u64,
+    /// Which button.
+    pub button: Buttons,
+    /// Pressed, not released.
+    pub down: bool,
 }
 
 /// What the tip touched.

@@ -3,6 +3,7 @@
 //! It is `Copy` and has a fixed size, so that a latest-value slot can carry it without a lock or
 //! an allocation, and a tick never sees half of a change (paper, section 3.3.1).
 
+use super::anchor::Anchor;
 use super::effect::EffectSet;
 use super::settings::ReachSettings;
 use crate::ball::{Ball, BallState};
@@ -37,6 +38,8 @@ pub struct HapticScene {
     pub effects: EffectSet,
     /// How the device reaches into the world; none: only effects are felt.
     pub reach: Option<Reach>,
+    /// What holds the hand while it leads no cue; the effects above are its.
+    pub anchor: Option<Anchor>,
     /// The balls in play; only the first `ball_count` count.
     pub balls: [HapticBall; BALLS_MAX],
     /// How many there are.
@@ -52,6 +55,7 @@ impl Default for HapticScene {
             sample_seen: 0,
             effects: EffectSet::default(),
             reach: None,
+            anchor: None,
             balls: [HapticBall::NONE; BALLS_MAX],
             ball_count: 0,
         }

@@ -99,6 +99,7 @@ impl Servo {
         self.report.sample.tick = self.report.counters.ticks;
         self.report.sample.dt = true_dt;
         self.report.sample.device = *device;
+        self.report.sample.anchor = scene.anchor;
         self.report.stiffness_max_n_m = self.settings.stiffness_max_n_m;
         let hand = Hand {
             position: device.position,

@@ -3,8 +3,9 @@
 //! It belongs to the picture alone: nothing here is recorded or hashed.
 
 use super::feel::{CAMERA_TICKS, PLACING_M_PER_HEIGHT, ZOOM};
-use super::{CameraPose, Look};
+use super::{CameraPose, Drive, Look};
 use crate::cue::Aim;
+use crate::units::TICK_S;
 use glam::{DVec2, DVec3};
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
@@ -24,6 +25,12 @@ const WATCH_RISE_RAD: f64 = 34.0 * DEGREE;
 const OVER_CUE_RAD: f64 = 12.0 * DEGREE;
 /// Lowest and highest eye [rad]: above the rails, and never straight above what it looks at.
 const RISE: (f64, f64) = (4.0 * DEGREE, 86.0 * DEGREE);
+/// Where a free eye may be: over the floor, below the ceiling, not far from the table [m].
+const ROOM: (DVec3, DVec3) = (DVec3::new(-4.0, -3.5, -0.6), DVec3::new(4.0, 3.5, 2.2));
+/// How high the eye stays over the bed above the table [m], and how far it keeps from its side.
+const OVER_BED_M: f64 = 0.1;
+/// The steepest free look [rad].
+const STEEP_RAD: f64 = 85.0 * DEGREE;
 /// The bird is this much off the vertical towards −y, so that it knows which way is up [m].
 const BIRD_ASIDE_M: f64 = 0.02;
 
@@ -61,6 +68,57 @@ impl Viewpoint {
     }
 }
 
+/// An eye that goes where it is led: five degrees of freedom, no roll.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Free {
+    /// Where it is [m].
+    eye: DVec3,
+    /// Where it looks: horizontally, anticlockwise from +x, and upwards [rad].
+    azimuth_rad: f64,
+    rise_rad: f64,
+}
+
+impl Free {
+    fn from(pose: &CameraPose) -> Self {
+        let ahead = (pose.target - pose.eye).normalize_or(DVec3::X);
+        Free {
+            eye: pose.eye,
+            azimuth_rad: libm::atan2(ahead.y, ahead.x),
+            rise_rad: libm::asin(ahead.z.clamp(-1.0, 1.0)).clamp(-STEEP_RAD, STEEP_RAD),
+        }
+    }
+
+    fn turn(&mut self, left_rad: f64, up_rad: f64) {
+        self.azimuth_rad = libm::remainder(self.azimuth_rad + left_rad, std::f64::consts::TAU);
+        self.rise_rad = (self.rise_rad + up_rad).clamp(-STEEP_RAD, STEEP_RAD);
+    }
+
+    /// Goes to its right, up and forwards [m]; it stays in the room and out of the table, whose bed
+    /// is so large [m].
+    fn go(&mut self, by: DVec3, table: DVec2) {
+        let (sin, cos) = libm::sincos(self.azimuth_rad);
+        let (right, ahead) = (DVec3::new(sin, -cos, 0.0), DVec3::new(cos, sin, 0.0));
+        let wanted = self.eye + right * by.x + DVec3::Z * by.y + ahead * by.z;
+        let wanted = wanted.clamp(ROOM.0, ROOM.1);
+        let is_over = wanted.truncate().abs().cmplt(0.5 * table).all();
+        self.eye = match is_over && wanted.z < OVER_BED_M {
+            // From above it stays above; from the side it stays there.
+            true if self.eye.truncate().abs().cmplt(0.5 * table).all() => {
+                wanted.with_z(OVER_BED_M)
+            }
+            true => self.eye.with_z(wanted.z),
+            false => wanted,
+        };
+    }
+
+    fn pose(&self) -> CameraPose {
+        let (sin_a, cos_a) = libm::sincos(self.azimuth_rad);
+        let (sin_r, cos_r) = libm::sincos(self.rise_rad);
+        let ahead = DVec3::new(cos_r * cos_a, cos_r * sin_a, sin_r);
+        CameraPose { eye: self.eye, target: self.eye + ahead, ..CameraPose::default() }
+    }
+}
+
 /// The player's eye.
 #[derive(Debug, Clone)]
 pub(super) struct Camera {
@@ -72,6 +130,8 @@ pub(super) struct Camera {
     /// On its way from here, so many ticks to go.
     from: CameraPose,
     left: u64,
+    /// It is led by hand.
+    free: Option<Free>,
 }
 
 impl Camera {
@@ -84,6 +144,7 @@ impl Camera {
             zoom: 1.0,
             from: CameraPose::default(),
             left: 0,
+            free: None,
         }
     }
 
@@ -97,8 +158,34 @@ impl Camera {
         self.viewpoint = viewpoint;
     }
 
+    /// From here on it is led by hand; or goes back to where it would be.
+    pub fn set_free(&mut self, is_free: bool) {
+        if is_free && self.free.is_none() {
+            self.free = Some(Free::from(&self.pose()));
+        } else if !is_free && self.free.is_some() {
+            self.from = self.pose();
+            (self.free, self.left) = (None, CAMERA_TICKS);
+        }
+    }
+
+    /// Whether it is led by hand.
+    pub fn is_free(&self) -> bool {
+        self.free.is_some()
+    }
+
+    /// One tick of being led, if it is, round a table with a bed of this size [m].
+    pub fn drive(&mut self, drive: &Drive, table: DVec2) {
+        let Some(free) = &mut self.free else { return };
+        free.turn(drive.turn_rad_s * TICK_S, drive.rise_rad_s * TICK_S);
+        free.go(drive.velocity * TICK_S, table);
+    }
+
     /// Looks round.
     pub fn look(&mut self, left_rad: f64, up_rad: f64) {
+        if let Some(free) = &mut self.free {
+            free.turn(left_rad, -up_rad);
+            return;
+        }
         self.turn_rad += left_rad;
         self.rise_rad = (self.rise_rad + up_rad).clamp(-RISE.1, RISE.1);
     }
@@ -110,7 +197,8 @@ impl Camera {
 
     /// How the player looks round, from above or not.
     pub fn looking(&self, bird: bool) -> Look {
-        Look { turn_rad: self.turn_rad, rise_rad: self.rise_rad, zoom: self.zoom, bird }
+        let free = self.is_free();
+        Look { turn_rad: self.turn_rad, rise_rad: self.rise_rad, zoom: self.zoom, bird, free }
     }
 
     /// A tick passes.
@@ -120,6 +208,9 @@ impl Camera {
 
     /// Where the eye is now.
     pub fn pose(&self) -> CameraPose {
+        if let Some(free) = &self.free {
+            return free.pose();
+        }
         let to = self.destination();
         if self.left == 0 {
             return to;

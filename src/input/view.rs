@@ -75,11 +75,13 @@ pub struct Look {
     pub zoom: f64,
     /// From above, over the whole table.
     pub bird: bool,
+    /// The eye is led by hand.
+    pub free: bool,
 }
 
 impl Default for Look {
     fn default() -> Self {
-        Look { turn_rad: 0.0, rise_rad: 0.0, zoom: 1.0, bird: false }
+        Look { turn_rad: 0.0, rise_rad: 0.0, zoom: 1.0, bird: false, free: false }
     }
 }
 

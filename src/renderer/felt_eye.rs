@@ -126,7 +126,7 @@ mod tests {
         let workspace = workspace(0.0, DVec3::Z);
         let eye = FeltEye::new(FeltTool::Cue);
         let usual = eye.behind(&workspace, &Look::default(), false);
-        let look = Look { turn_rad: 0.5, rise_rad: 0.3, zoom: 2.0, bird: false };
+        let look = Look { turn_rad: 0.5, rise_rad: 0.3, zoom: 2.0, ..Look::default() };
         let turned = eye.behind(&workspace, &look, false);
         assert_eq!(turned.target, usual.target);
         let [near, far] = [usual, turned].map(|pose| pose.eye.distance(pose.target));

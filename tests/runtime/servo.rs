@@ -295,14 +295,15 @@ fn without_rights_the_servo_runs_says_what_would_help_and_ends_in_order() {
 #[test]
 fn every_edge_of_a_button_is_told_in_order() {
     let (plan, wires) = wired();
-    let Started { seat, mut stylus, .. } = Seat::start(plan).unwrap();
+    let (watch, mut heard) = Watch::default().with_buttons();
+    let Started { seat, .. } = Seat::start_watched(plan, watch).unwrap();
     for held in [1, 3, 2, 0, 1, 0] {
         wires.held.store(held, Ordering::SeqCst);
         let ticks = seat.timing().ticks();
         wait_for("two ticks", || seat.timing().ticks() >= ticks + 2);
     }
     let mut edges = Vec::new();
-    while let Ok(edge) = stylus.buttons.pop() {
+    while let Ok(edge) = heard.pop() {
         edges.push((edge.button.0, edge.down));
     }
     let expected = [(1, true), (2, true), (1, false), (2, false), (1, true), (1, false)];

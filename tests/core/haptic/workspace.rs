@@ -149,3 +149,22 @@ fn a_workspace_that_is_laid_anew_is_there_at_once_and_nothing_else_moves_it() {
     near(desk.at(BALL).sample.tip, PIVOT + DVec3::X);
     assert_eq!(desk.servo.report().sample.velocity, DVec3::ZERO);
 }
+
+#[test]
+fn every_press_begins_a_stroke_but_one_that_was_made_for_something_else() {
+    let mut desk = Desk::new(&Aim::default());
+    let cue = desk.scene.reach.unwrap().cue;
+    let mut tick = |buttons, cue| {
+        desk.device.buttons = buttons;
+        desk.scene.reach.as_mut().unwrap().cue = cue;
+        desk.at(DVec3::ZERO).sample.stabilised
+    };
+    for stroke in 0..3 {
+        assert!(!tick(Buttons::default(), cue));
+        assert!(tick(Buttons::FRONT, cue) && tick(Buttons::FRONT, cue), "stroke {stroke}");
+    }
+    // Pressed while there was no cue to strike with.
+    assert!(!tick(Buttons::default(), None) && !tick(Buttons::FRONT, None));
+    assert!(!tick(Buttons::FRONT, cue));
+    assert!(!tick(Buttons::default(), cue) && tick(Buttons::FRONT, cue));
+}
