@@ -11,8 +11,8 @@ use glam::DVec2;
 use hapticbillard::cue::CuePath;
 use hapticbillard::event_manager::Publication;
 use hapticbillard::events::{Command, Event};
-use hapticbillard::haptic::{DeviceStatus, StylusSample};
-use hapticbillard::input::StylusWord;
+use hapticbillard::haptic::{Anchor, DeviceStatus, Leads, StylusSample};
+use hapticbillard::input::{CameraHand, StylusWord};
 use hapticbillard::tick::{Frame, FrameSource, Inflow};
 use hapticbillard::units::{Seconds, TICK_S, Tick};
 use std::sync::Arc;
@@ -68,6 +68,11 @@ impl Stylus {
         }
     }
 
+    /// What it is for from now on.
+    pub fn lead(&self, leads: Leads) {
+        self.ports.signs.lead(leads);
+    }
+
     /// What enters in `tick` where nobody but the stylus plays.
     pub fn frame(&mut self, tick: Tick) -> Frame {
         let mut frame = Frame::new();
@@ -94,13 +99,19 @@ impl Stylus {
             return None;
         }
         self.is_disarmed &= sample.stabilised;
+        if let Some(Anchor::Camera(from)) = sample.anchor {
+            self.last = None;
+            let (direction, camera) = (sample.direction, CameraHand::of(&sample.device, from));
+            let camera = Some(camera);
+            return Some(StylusWord::Held { direction, armed: false, path: None, camera });
+        }
         let path = self.last.replace(sample).map(|before| {
             let solid = sample.stabilised && before.stabilised && !self.is_disarmed;
             let piece = sample.piece(&before, tick.start_s(), PIECE_S);
             Arc::new(CuePath { solid, pieces: std::iter::once(piece).collect() })
         });
         let armed = sample.stabilised && !self.is_disarmed;
-        Some(StylusWord::Held { direction: sample.direction, armed, path })
+        Some(StylusWord::Held { direction: sample.direction, armed, path, camera: None })
     }
 
     /// What it says while time stands still: whatever the hand does then is no stroke.
@@ -115,7 +126,8 @@ impl Stylus {
         Some(match sample.device.status {
             DeviceStatus::Lost => StylusWord::Lost,
             DeviceStatus::Ready | DeviceStatus::Warm => {
-                StylusWord::Held { direction: sample.direction, armed: false, path: None }
+                let direction = sample.direction;
+                StylusWord::Held { direction, armed: false, path: None, camera: None }
             }
         })
     }

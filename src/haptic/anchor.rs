@@ -22,15 +22,15 @@ const PLANE_STIFFNESS_N_M: f64 = 150.0;
 /// Damping of both springs [N s/m].
 const DAMPING_NS_M: f64 = 1.0;
 
-/// What the stylus is for.
+/// What the stylus is for. Whatever that is, its rear button opens the wheel menu.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub enum Leads {
-    /// It leads the cue, and its rear button opens the wheel menu.
+    /// It leads the cue.
     #[default]
     Cue,
-    /// It leads the camera; the rear button does the same.
+    /// It leads the camera.
     Camera,
-    /// It points at menus: nothing holds it.
+    /// It points at things in the window.
     Pointer,
 }
 
@@ -61,12 +61,11 @@ impl Anchors {
         let is_pressed = is_down && !was_down;
         let at = device.position;
         let next = match (leads, self.now) {
-            (Leads::Pointer, _) => None,
             (_, Some(Anchor::Wheel(at))) if is_down => Some(Anchor::Wheel(at)),
             _ if is_pressed => Some(Anchor::Wheel(at)),
             (Leads::Camera, Some(Anchor::Camera(at))) => Some(Anchor::Camera(at)),
             (Leads::Camera, _) => Some(Anchor::Camera(at)),
-            (Leads::Cue, _) => None,
+            (Leads::Cue | Leads::Pointer, _) => None,
         };
         let is_same = match (self.now, next) {
             (None, None) => true,
@@ -81,7 +80,7 @@ impl Anchors {
     }
 
     /// Puts what is to be felt into a scene: what was ordered, and the anchor. While the stylus
-    /// leads no cue the workspace stays where it is and nothing is struck.
+    /// leads no cue the workspace stays where it is, and nothing is struck or touched.
     pub fn apply(&self, effects: &EffectSet, reach: Option<Reach>, scene: &mut HapticScene) {
         scene.anchor = self.now;
         scene.effects = *effects;
@@ -89,7 +88,7 @@ impl Anchors {
         scene.reach = reach;
         let is_free = self.now.is_none() && self.leads == Leads::Cue;
         if let Some(reach) = scene.reach.as_mut().filter(|_| !is_free) {
-            (reach.turns, reach.cue) = (false, None);
+            (reach.turns, reach.solid, reach.cue) = (false, false, None);
         }
         let Some(anchor) = self.now else { return };
         let free = scene.effects.slots.iter_mut().filter(|slot| slot.is_none());
@@ -232,10 +231,8 @@ mod tests {
         assert_eq!(anchors.step(&free, Leads::Camera), Some(Anchor::Camera(DVec3::X)));
         anchors.apply(&set, None, &mut scene);
         assert_eq!(scene.effects.slots.iter().flatten().count(), 1 + Anchor::EFFECTS);
-        // A button that was down before is no press.
-        assert_eq!(anchors.step(&rear, Leads::Pointer), None);
-        assert_eq!(anchors.step(&rear, Leads::Cue), None);
+        assert_eq!(anchors.step(&free, Leads::Pointer), None);
+        assert_eq!(anchors.step(&rear, Leads::Pointer), Some(wheel));
         assert_eq!(anchors.step(&free, Leads::Cue), None);
-        assert_eq!(anchors.step(&rear, Leads::Cue), Some(wheel));
     }
 }

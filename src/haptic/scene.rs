@@ -146,6 +146,8 @@ pub struct Reach {
     pub stroke_gain: f64,
     /// Whether the edges turn it.
     pub turns: bool,
+    /// Whether what the tip touches is felt.
+    pub solid: bool,
     /// Radius of the sphere that stands for the tip [m].
     pub tip_radius_m: f64,
     /// The cue that can strike; none: everything is only touched.
@@ -183,6 +185,7 @@ impl Reach {
             scale: settings.scale,
             stroke_gain: settings.stroke_gain,
             turns: true,
+            solid: true,
             tip_radius_m: parameters.tip_radius_m,
             cue: Some(CueBody::of(parameters)),
         }
@@ -211,6 +214,7 @@ impl Reach {
             scale,
             stroke_gain: 1.0,
             turns: true,
+            solid: true,
             tip_radius_m,
             cue: None,
         }

@@ -153,7 +153,7 @@ impl Servo {
         let obstacles = Obstacles { mesh, balls: touched(&self.world, &placed) };
         let friction = settings.coupling.friction;
         let met = self.proxy.follow(placed.target, reach.tip_radius_m, friction, &obstacles);
-        if met.is_new {
+        if met.is_new && reach.solid {
             self.meet(&met, &placed);
         }
         let pulled = placed.in_device(self.proxy.centre() - placed.target);
@@ -162,10 +162,11 @@ impl Servo {
         let damping = self.damping(pulled);
         let back = placed.direction * self.lead.offset_m;
         let recoil = settings.coupling.recoil * stiffness * placed.in_device(back);
+        let touched = if reach.solid { spring + damping + recoil } else { DVec3::ZERO };
 
         self.tell(reach, &placed, pulled.length());
         Felt {
-            contact: placed.force + spring + damping + recoil,
+            contact: placed.force + touched,
             sharp: self.transient.force(dt, &settings.transient),
         }
     }

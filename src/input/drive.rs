@@ -10,7 +10,7 @@
 //!
 //! Below a threshold, which is felt, nothing moves; beyond it everything begins at zero.
 
-use crate::haptic::THRESHOLD_M;
+use crate::haptic::{Buttons, DeviceState, THRESHOLD_M};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -63,6 +63,15 @@ pub struct Drive {
 }
 
 impl CameraHand {
+    /// What a device says that began at `from` [m].
+    pub fn of(device: &DeviceState, from: DVec3) -> Self {
+        CameraHand {
+            moved: device.position - from,
+            pointing: device.pointing(),
+            front: device.buttons.has(Buttons::FRONT),
+        }
+    }
+
     /// What it makes the eye do.
     pub fn drive(&self, steering: Steering) -> Drive {
         // The device's z points towards the user.

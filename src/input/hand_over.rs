@@ -7,6 +7,7 @@
 //! | is lost otherwise | the mouse strikes at once |
 //! | is back | the stylus strikes when the cue is put to a ball next, never in between |
 
+use super::CameraHand;
 use crate::cue::CuePath;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -24,6 +25,8 @@ pub enum StylusWord {
         armed: bool,
         /// The way of the tip in this tick, if it has one.
         path: Option<Arc<CuePath>>,
+        /// What it does while it leads the camera, and not the cue.
+        camera: Option<CameraHand>,
     },
 }
 
@@ -105,7 +108,7 @@ mod tests {
     use super::*;
 
     fn held(armed: bool) -> StylusWord {
-        StylusWord::Held { direction: DVec3::X, armed, path: None }
+        StylusWord::Held { direction: DVec3::X, armed, path: None, camera: None }
     }
 
     #[test]

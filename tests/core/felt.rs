@@ -31,6 +31,7 @@ fn reach(azimuth_rad: f64, cue: bool) -> Reach {
         scale: SCALE,
         stroke_gain: 1.0,
         turns: true,
+        solid: true,
         tip_radius_m: TIP_RADIUS_M,
         cue,
     }

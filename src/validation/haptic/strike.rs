@@ -96,6 +96,7 @@ impl<'s> Range<'s> {
                 scale: 1.0,
                 stroke_gain: 1.0,
                 turns: false,
+                solid: true,
                 tip_radius_m: TIP_RADIUS_M,
                 cue: Some(CueBody {
                     mass_kg: setup.positive("cue_mass_kg")?,

@@ -30,6 +30,7 @@ fn reach(middle: DVec3, scale: f64) -> Reach {
         scale,
         stroke_gain: 1.0,
         turns: false,
+        solid: true,
         tip_radius_m: TIP_M,
         cue: None,
     }

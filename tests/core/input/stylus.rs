@@ -33,7 +33,7 @@ fn held(desk: &Desk, at_m: f64, speed_m_s: f64, armed: bool) -> StylusWord {
     };
     let pieces = std::iter::once(piece).collect();
     let path = Some(Arc::new(CuePath { solid: armed, pieces }));
-    StylusWord::Held { direction, armed, path }
+    StylusWord::Held { direction, armed, path, camera: None }
 }
 
 /// A stylus at rest before the cue ball.

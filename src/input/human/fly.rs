@@ -1,0 +1,71 @@
+//! The camera led by hand: by keys and mouse, or by the stylus.
+
+use super::super::drive::{CameraHand, Drive};
+use super::super::feel::{FLY_M_PER_S, FLY_RAD_PER_S};
+use super::{Human, Stage};
+use crate::haptic::Leads;
+use crate::input::Action;
+use glam::{DVec2, DVec3};
+
+/// How much wider and longer the table is than its bed [m].
+const RAILS_M: DVec2 = DVec2::new(0.3, 0.3);
+
+impl Human {
+    /// What a stylus is for now.
+    pub fn stylus_leads_what(&self) -> Leads {
+        match self.stage {
+            _ if self.paused => Leads::Pointer,
+            _ if self.camera.is_free() => Leads::Camera,
+            Stage::Placing(_) | Stage::Choosing => Leads::Pointer,
+            Stage::Waiting | Stage::Aiming | Stage::Stroking(_) | Stage::Struck => Leads::Cue,
+        }
+    }
+
+    /// The eye is led by hand from now on, or goes back to the cue.
+    pub(super) fn lead_camera_or_cue(&mut self) {
+        if self.paused {
+            return;
+        }
+        let leads = !self.camera.is_free();
+        if leads {
+            self.let_go();
+        }
+        self.camera.set_free(leads);
+    }
+
+    /// One tick of the eye, if it is led by hand.
+    pub(super) fn fly(&mut self, hand: Option<&CameraHand>) {
+        if self.paused || !self.camera.is_free() {
+            return;
+        }
+        let size = self.table.bed.map_or(DVec2::ZERO, |bed| DVec2::new(bed.length_m, bed.width_m));
+        let keys = self.driven_by_keys();
+        self.camera.drive(&keys, size + RAILS_M);
+        if let Some(hand) = hand {
+            self.camera.drive(&hand.drive(self.steering), size + RAILS_M);
+        }
+    }
+
+    /// Keys that move the tip move the eye.
+    fn driven_by_keys(&self) -> Drive {
+        let held = |more, less| self.held.balance(more, less) * self.fine();
+        Drive {
+            velocity: FLY_M_PER_S
+                * DVec3::new(
+                    held(Action::TipRight, Action::TipLeft),
+                    held(Action::Raise, Action::Lower),
+                    held(Action::TipUp, Action::TipDown),
+                ),
+            turn_rad_s: FLY_RAD_PER_S * held(Action::TurnLeft, Action::TurnRight),
+            rise_rad_s: 0.0,
+        }
+    }
+
+    /// A stylus points here in the window, in its heights from its middle: a ball in hand is there.
+    pub(super) fn pointed_at(&mut self, at: DVec2) {
+        let on_bed = self.camera.pose().on_level(at, self.radius_m);
+        if let (Stage::Placing(placing), Some(at), false) = (&mut self.stage, on_bed, self.paused) {
+            placing.hold_at(at, self.table.bed.as_ref(), self.radius_m);
+        }
+    }
+}

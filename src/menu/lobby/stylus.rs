@@ -1,0 +1,127 @@
+//! What a stylus says to menus and games, and the wheel menu.
+
+use super::{Game, Lobby, Order, Pointed};
+use crate::input::{Action, Button, HandInput, HumanMode, RawInput, StylusSays};
+use crate::menu::{Wheel, WheelPage};
+use glam::DVec2;
+
+impl Lobby {
+    /// The same with another wheel; without one there is none.
+    #[must_use]
+    pub fn with_wheel(mut self, page: WheelPage) -> Self {
+        self.wheel_page = Some(page);
+        self
+    }
+
+    /// The window is so large from now on [pixels].
+    pub fn resize(&mut self, window: DVec2) {
+        self.window = window;
+    }
+
+    /// The wheel, while it is open.
+    pub fn wheel(&self) -> Option<&Wheel> {
+        self.wheel.as_ref()
+    }
+
+    /// Whether a stylus points at things in the window now, and a pointer belongs there.
+    pub fn is_pointed_at(&self) -> bool {
+        let mode = matches!(
+            self.mode,
+            HumanMode::Placing | HumanMode::Choosing | HumanMode::Paused
+        );
+        self.is_menu_open() || self.wheel.is_some() || (self.game == Game::Running && mode)
+    }
+
+    /// A stylus that points to a place [pixels] says something; `pointed` is the line of a menu
+    /// there, and `picked` that of the options.
+    pub fn hear_stylus(
+        &mut self,
+        said: StylusSays,
+        place: DVec2,
+        pointed: Option<Pointed>,
+        picked: Option<usize>,
+    ) -> Vec<Order> {
+        let mut orders = match said {
+            StylusSays::Points(at) => self.stylus_points(at, pointed),
+            StylusSays::Button { down, .. } => self.stylus_button(down, pointed, picked),
+            StylusSays::Rear { down: true } => {
+                self.open_wheel(place);
+                Vec::new()
+            }
+            StylusSays::Rear { down: false } => self.close_wheel(),
+        };
+        orders.extend(self.settle());
+        orders
+    }
+
+    fn stylus_points(&mut self, at: DVec2, pointed: Option<Pointed>) -> Vec<Order> {
+        if let Some(wheel) = &mut self.wheel {
+            wheel.point(at);
+            return Vec::new();
+        }
+        if self.is_menu_open() {
+            return self.point(pointed);
+        }
+        if self.game != Game::Running || self.mode != HumanMode::Placing {
+            return Vec::new();
+        }
+        let from_middle = (at - 0.5 * self.window) / self.window.y.max(1.0);
+        let (right, up) = (from_middle.x, -from_middle.y);
+        vec![Order::Tell(HandInput::Points { right, up })]
+    }
+
+    /// Its front button: a click where something can be clicked. A stroke is the servo's.
+    fn stylus_button(
+        &mut self,
+        down: bool,
+        pointed: Option<Pointed>,
+        picked: Option<usize>,
+    ) -> Vec<Order> {
+        if self.is_menu_open() {
+            return self.button(Button::Left, down, pointed);
+        }
+        if !down {
+            self.button(Button::Left, false, None);
+            let was_told = std::mem::take(&mut self.has_told_click);
+            let up = Order::Tell(HandInput::Act { action: Action::Stroke, down: false });
+            return if was_told { vec![up] } else { Vec::new() };
+        }
+        match (self.game, self.mode, picked) {
+            _ if self.wheel.is_some() => Vec::new(),
+            (Game::Running, HumanMode::Choosing, Some(option)) => {
+                vec![Order::Tell(HandInput::Picked { option })]
+            }
+            (Game::Running, HumanMode::Placing, _) => {
+                self.has_told_click = true;
+                vec![Order::Tell(HandInput::Act { action: Action::Stroke, down: true })]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Opens the wheel round a place of the window, where a game goes on.
+    pub(super) fn open_wheel(&mut self, place: DVec2) {
+        let page = self.wheel_page.clone().filter(|_| self.is_playing());
+        self.wheel = page.map(|page| Wheel::open(page, place, self.window.y));
+    }
+
+    /// Closes it, and does what is meant.
+    pub(super) fn close_wheel(&mut self) -> Vec<Order> {
+        let Some(action) = self.wheel.take().and_then(|wheel| wheel.choice()) else {
+            return Vec::new();
+        };
+        [super::Edge::Pressed, super::Edge::Released]
+            .into_iter()
+            .flat_map(|edge| self.act(action, edge))
+            .collect()
+    }
+
+    /// What devices say to an open wheel; false if it is for somebody else.
+    pub(super) fn turn_wheel(&mut self, report: &RawInput) -> bool {
+        let (Some(wheel), RawInput::Moved { right, up }) = (&mut self.wheel, report) else {
+            return false;
+        };
+        wheel.push(DVec2::new(*right, -*up) * self.window.y);
+        true
+    }
+}
