@@ -3,7 +3,7 @@
 
 # What a window, pictures without a window, and their tests need from the system.
 PACKAGES := xvfb xdotool imagemagick libegl1 libegl-mesa0 libgl1-mesa-dri libxcursor1 libxi6 \
-	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev
+	libxrandr2 libxkbcommon-x11-0 pkg-config libasound2-dev libudev-dev
 CARGO := cargo
 # How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
 MINUTES ?= 10

@@ -260,6 +260,11 @@ pub fn settings_file() -> Result<PathBuf, Error> {
     Ok(folders()?.config_dir().join("settings.toml"))
 }
 
+/// The file of the keys that a player has chosen.
+pub fn keys_file() -> Result<PathBuf, Error> {
+    Ok(folders()?.config_dir().join("keys.toml"))
+}
+
 /// What the processor of this machine calls itself, for reports of run time.
 pub fn processor_name() -> String {
     let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

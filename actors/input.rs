@@ -1,6 +1,13 @@
 //! The actors of the input manager: a hand, or something else in its place.
 //!
-//! Both answer [`FrameOf`]: everything that enters a game from outside enters here.
+//! Both answer [`FrameOf`]: everything that enters a game from outside enters here. Beside them
+//! stands the driver of gamepads, whose reports go to a window as those of its mouse do.
+
+#[cfg(feature = "gamepad")]
+mod gamepads;
+
+mod pad;
+pub use pad::{PadDriver, PadError, PadSource};
 
 use crate::haptic::{FeltMouse, Stylus};
 use crate::kept::{Kept, Saved, Shared};
@@ -8,7 +15,7 @@ use crate::participant::{Answer, Mail, collect};
 use hapticbillard::events::{Command, Event, Source, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::input::{
-    Human, HumanView, Led, LedHuman, MouseSplit, RawInput, Reader, StylusWord,
+    HandInput, Human, HumanView, Led, LedHuman, MouseSplit, Reader, StylusWord,
 };
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
@@ -16,6 +23,16 @@ use hapticbillard::units::Tick;
 use kameo::prelude::*;
 use std::pin::Pin;
 use std::sync::Arc;
+
+/// The gamepads of this machine; none where the program was built without them.
+pub fn gamepads() -> Option<PadDriver> {
+    #[cfg(feature = "gamepad")]
+    match PadDriver::start(gamepads::Gamepads::open) {
+        Ok(driver) => return Some(driver),
+        Err(error) => tracing::warn!("{error}"),
+    }
+    None
+}
 
 /// What enters in this tick? The conductor asks it before every tick that has a frame.
 pub struct FrameOf(pub Tick);
@@ -103,10 +120,10 @@ pub struct WindowHand {
     core: Saved<Human>,
     /// What devices say. The window bounds the channel; when it is full it keeps movements, which
     /// add up, and waits with buttons.
-    raw: flume::Receiver<RawInput>,
+    raw: flume::Receiver<HandInput>,
     /// What the hand sees and does, for the picture: only the newest counts.
     view: triple_buffer::Input<HumanView>,
-    buffer: Vec<RawInput>,
+    buffer: Vec<HandInput>,
     stylus: Option<Stylus>,
     /// The hand at the haptic device that the mouse moves, and what of the mouse is for it.
     felt: Option<(FeltMouse, MouseSplit)>,
@@ -116,7 +133,7 @@ impl WindowHand {
     /// Joins the core with its window.
     pub fn new(
         core: Human,
-        raw: flume::Receiver<RawInput>,
+        raw: flume::Receiver<HandInput>,
         view: triple_buffer::Input<HumanView>,
     ) -> Self {
         let core = Saved::new(core);
@@ -148,7 +165,7 @@ impl FrameSource for WindowHand {
         self.buffer.extend(self.raw.try_iter());
         if let Some((felt, split)) = &mut self.felt {
             let mode = self.core.get().view().mode;
-            let is_for_it = |report: &&RawInput| split.reader_in(mode, report) != Reader::Eye;
+            let is_for_it = |report: &&HandInput| split.reader_in(mode, report) != Reader::Eye;
             self.buffer.iter().filter(is_for_it).for_each(|report| felt.hear(report));
         }
         let word = self.word(tick);
@@ -168,20 +185,20 @@ impl FrameSource for WindowHand {
 /// A hand at a haptic device, in a window whose mouse may move it.
 pub struct LedHand {
     core: Saved<LedHuman>,
-    raw: flume::Receiver<RawInput>,
+    raw: flume::Receiver<HandInput>,
     view: triple_buffer::Input<HumanView>,
     /// The hand that the mouse moves.
     mouse: Option<FeltMouse>,
     /// What strikes, where there is a cue.
     stylus: Option<Stylus>,
-    buffer: Vec<RawInput>,
+    buffer: Vec<HandInput>,
 }
 
 impl LedHand {
     /// Joins the core with its window and its device.
     pub fn new(
         core: LedHuman,
-        raw: flume::Receiver<RawInput>,
+        raw: flume::Receiver<HandInput>,
         view: triple_buffer::Input<HumanView>,
         mouse: Option<FeltMouse>,
         stylus: Option<Stylus>,

@@ -1,6 +1,6 @@
 //! The menus: pages that files describe, what they set and start, and who is where in them.
 //!
-//! A [`Menu`] is a state machine. Keys, a pointer or a script move it by [`MenuInput`]; it answers
+//! A [`Menu`] is a state machine. Keys, a pointer, a gamepad or a script move it by [`MenuInput`]; it answers
 //! with a [`Deed`]. A [`Lobby`] stands between the devices, a menu and a game, and gives a window
 //! its [`Order`]s. Pages and links stand in `config/menus/`, the words
 //! in `config/text/`; nothing here knows a window.
@@ -10,6 +10,9 @@ pub use page::{Act, Effect, Item, Page, PageError, Pages};
 
 mod settings;
 pub use settings::{GameChoice, Range, Seat, Setting, Settings, TableChoice, Tongue};
+
+mod notice;
+pub use notice::Notice;
 
 mod lobby;
 pub use lobby::{Lobby, Order, Pointed};

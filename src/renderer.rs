@@ -47,4 +47,4 @@ pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
 pub use thoughts::{LegendRow, ThoughtRow, ThoughtsPanel, draw_thoughts};
-pub use words::Words;
+pub use words::{HelpOf, Words};

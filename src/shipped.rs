@@ -32,9 +32,26 @@ pub const MENUS: &[(&str, &str)] = &[
     ("main", include_str!("../config/menus/main.toml")),
     ("mode", include_str!("../config/menus/mode.toml")),
     ("options", include_str!("../config/menus/options.toml")),
+    ("keys", include_str!("../config/menus/keys.toml")),
+    ("keys_cue", include_str!("../config/menus/keys_cue.toml")),
+    ("keys_say", include_str!("../config/menus/keys_say.toml")),
+    ("keys_see", include_str!("../config/menus/keys_see.toml")),
     ("pause", include_str!("../config/menus/pause.toml")),
     ("over", include_str!("../config/menus/over.toml")),
 ];
+
+/// The profiles of controllers, by name: the text of `config/profiles/NAME.toml`.
+pub const PROFILES: &[(&str, &str)] = &[
+    ("always", include_str!("../config/profiles/always.toml")),
+    ("menu", include_str!("../config/profiles/menu.toml")),
+    ("cue", include_str!("../config/profiles/cue.toml")),
+    ("choice", include_str!("../config/profiles/choice.toml")),
+    ("camera", include_str!("../config/profiles/camera.toml")),
+    ("pause", include_str!("../config/profiles/pause.toml")),
+];
+
+/// What keys and buttons mean, as TOML; see [`crate::input::Bindings`].
+pub const KEYS: &str = include_str!("../config/profiles/keys.toml");
 
 /// The meshes of scenes, by file name: the text of `config/scenes/NAME`.
 pub const MESHES: &[(&str, &str)] =

@@ -5,6 +5,8 @@ mod felt;
 #[cfg(feature = "renderer")]
 mod in_window;
 #[cfg(feature = "renderer")]
+mod kept_keys;
+#[cfg(feature = "renderer")]
 mod kept_settings;
 
 use super::{Driver, Status, positive};

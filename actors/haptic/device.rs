@@ -9,7 +9,7 @@ use hapticbillard::haptic::simulated::{
     Guide, HandModel, HandScript, Leg, MouseFeel, MouseHand, SimulatedDevice,
 };
 use hapticbillard::haptic::{Buttons, Device, DeviceSpec, DeviceState, Force, RecordedDevice};
-use hapticbillard::input::{Button, RawInput};
+use hapticbillard::input::{Action, HandInput};
 use hapticbillard::scene::HapticDevice;
 use hapticbillard::units::Seconds;
 use std::path::{Path, PathBuf};
@@ -241,27 +241,30 @@ impl FeltMouse {
     }
 
     /// Takes a report.
-    pub fn hear(&mut self, report: &RawInput) {
+    pub fn hear(&mut self, report: &HandInput) {
         let heard = match report {
-            RawInput::Moved { right, up } => MouseMove::Moved { right: *right, up: *up },
-            RawInput::Wheel { notches } => MouseMove::Wheel(*notches),
-            RawInput::Button { button, down } => {
-                let stylus = match button {
-                    Button::Left => Buttons::FRONT,
-                    Button::Right => Buttons::REAR,
+            HandInput::Moved { right, up } => MouseMove::Moved { right: *right, up: *up },
+            HandInput::Wheel { notches } => MouseMove::Wheel(*notches),
+            HandInput::Act { action, down } => {
+                let stylus = match action {
+                    Action::Stroke => Buttons::FRONT,
+                    Action::MouseMovesTip => Buttons::REAR,
                     _ => return,
                 };
                 self.held = if *down { self.held.with(stylus) } else { self.held.without(stylus) };
                 MouseMove::Held(self.held)
             }
-            RawInput::FocusLost | RawInput::Closed => {
+            HandInput::FocusLost | HandInput::PadLost | HandInput::Closed => {
                 self.held = Buttons::default();
                 MouseMove::Held(self.held)
             }
-            RawInput::Key { .. } | RawInput::Picked { .. } | RawInput::Aid(_) => return,
+            HandInput::Stick { .. }
+            | HandInput::Trigger(_)
+            | HandInput::Picked { .. }
+            | HandInput::Aid(_) => return,
         };
         self.say(heard);
-        let is_let_go = matches!(report, RawInput::Button { button: Button::Left, down: false });
+        let is_let_go = matches!(report, HandInput::Act { action: Action::Stroke, down: false });
         if is_let_go && self.draws_back {
             self.say(MouseMove::DrawBack);
         }
@@ -323,9 +326,9 @@ mod tests {
     fn a_mouse_moves_the_hand_of_its_device() {
         let Opened { mut device, mouse, .. } = open(&HapticDevice::Mouse).unwrap().unwrap();
         let mut mouse = FeltMouse::new(mouse.unwrap());
-        mouse.hear(&RawInput::Moved { right: 0.25, up: 0.0 });
-        mouse.hear(&RawInput::Button { button: Button::Left, down: true });
-        mouse.hear(&RawInput::Moved { right: 0.0, up: 0.125 });
+        mouse.hear(&HandInput::Moved { right: 0.25, up: 0.0 });
+        mouse.hear(&HandInput::Act { action: Action::Stroke, down: true });
+        mouse.hear(&HandInput::Moved { right: 0.0, up: 0.125 });
         let state = (0..2000).map(|_| device.read(0.001)).last().unwrap();
         // A quarter and an eighth of 160 mm, up to the device's dry friction against the hand.
         assert!((state.position.x - 0.04).abs() < 0.01, "{state:?}");

@@ -8,10 +8,13 @@ use super::running::Running;
 use super::stage::{BACKGROUND, Stage};
 use super::window::{Backdrop, GameEnded, Host, WindowSetup};
 use crate::error::Error;
+use crate::input::PadDriver;
 use crate::pacer::StopFlag;
-use hapticbillard::input::{AimAid, Button, HumanMode, Key, RawInput};
+use hapticbillard::input::{
+    Action, AimAid, Button, Controller, HandInput, HumanMode, PadInput, RawInput,
+};
 use hapticbillard::menu::{Lobby, Order, Pointed};
-use hapticbillard::renderer::{DrawList, Hud, MenuLayout, MenuPanel, Words};
+use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
 use three_d::{ClearState, CoreError, GUI, RenderTarget, Viewport, WindowedContext, egui};
@@ -21,8 +24,10 @@ use winit::window::{Fullscreen, Window};
 
 /// A picture takes at least so long: 60 a second are enough.
 const FRAME: Duration = Duration::from_micros(16_600);
-/// How long it is said where a picture went.
+/// How long it is said where a picture went, or that a gamepad is gone.
 const SAID: Duration = Duration::from_secs(4);
+/// How long it is said what is wrong with a file of keys: a path and a line are to be read.
+const SAID_LONG: Duration = Duration::from_secs(20);
 /// What was set is written when nothing more was set for so long: a scale is pulled in many steps.
 const KEEP_AFTER: Duration = Duration::from_millis(700);
 
@@ -51,14 +56,12 @@ pub(super) struct Desk<'a> {
     /// What went wrong with a game that no menu can tell of.
     failed: Option<Error>,
     pointer: Pointer,
+    pads: Option<PadDriver>,
     start: Instant,
     due: Instant,
     /// The window shall fill the screen, as it is set.
     is_full: bool,
-    /// The key for pictures is down.
-    is_picture_held: bool,
-    /// The key for the panel of the runtime is down, and the panel is shown.
-    is_meters_held: bool,
+    /// The panel of the runtime is shown.
     shows_meters: bool,
     /// The next picture is kept in a file.
     wants_picture: bool,
@@ -91,11 +94,9 @@ impl<'a> Desk<'a> {
             stop: setup.stop,
             system: setup.language,
             spoken: setup.language,
-            words: Words::of_menus(setup.language),
+            words: Words::of_menus(setup.language).with_keys(&setup.keys.0),
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
-            lobby: Lobby::new(setup.menu),
-            is_picture_held: false,
-            is_meters_held: false,
+            lobby: Lobby::new(setup.menu).with_bindings(setup.keys.0),
             shows_meters: false,
             backdrop: None,
             game: None,
@@ -104,10 +105,11 @@ impl<'a> Desk<'a> {
             aid: None,
             failed: None,
             pointer: Pointer::new(),
+            pads: setup.pads,
             start: now,
             due: now,
             wants_picture: false,
-            said: None,
+            said: setup.keys.1.map(|said| (said, now + SAID_LONG)),
             shown: None,
             is_focused: false,
             graphics,
@@ -154,6 +156,7 @@ impl<'a> Desk<'a> {
                     flow.set_exit();
                     return;
                 }
+                self.hear_pads(flow);
                 if self.unkept.is_some_and(|since| KEEP_AFTER <= since.elapsed()) {
                     self.keep();
                 }
@@ -216,21 +219,25 @@ impl<'a> Desk<'a> {
 
     /// A device says something.
     fn hear(&mut self, report: RawInput, flow: &mut ControlFlow) {
-        if let RawInput::Key { key: Key::Picture, down } = report {
-            if down && !self.is_picture_held {
-                // What stands there now is drawn again.
-                (self.wants_picture, self.shown) = (true, None);
-            }
-            self.is_picture_held = down;
-            return;
-        }
-        if let RawInput::Key { key: Key::Meters, down } = report {
-            self.shows_meters ^= down && !self.is_meters_held;
-            self.is_meters_held = down;
-            return;
-        }
+        let is_click = report == RawInput::Button { button: Button::Left, down: true };
+        let report = match self.picked().filter(|_| is_click && !self.lobby.is_menu_open()) {
+            Some(option) => RawInput::Picked { option },
+            None => report,
+        };
         let orders = self.lobby.hear(report, self.pointed());
         self.obey(orders, flow);
+    }
+
+    /// Gamepads have said something. They speak to every window, but only the one that has the
+    /// keyboard is meant.
+    fn hear_pads(&mut self, flow: &mut ControlFlow) {
+        let Some(pads) = &self.pads else { return };
+        let is_meant = |report: &PadInput| {
+            self.is_focused || matches!(report, PadInput::Connected | PadInput::Lost)
+        };
+        for report in pads.take().into_iter().filter(is_meant).collect::<Vec<_>>() {
+            self.hear(RawInput::Pad(report), flow);
+        }
     }
 
     /// The mouse moved to the right and down [pixels].
@@ -242,7 +249,12 @@ impl<'a> Desk<'a> {
     fn obey(&mut self, orders: Vec<Order>, flow: &mut ControlFlow) {
         for order in orders {
             match order {
-                Order::Tell(report) => self.tell(report),
+                Order::Tell(input) => self.tell(input),
+                Order::Do(action) => self.act(action),
+                Order::Say(key) => {
+                    let words = Words::new(self.spoken);
+                    self.said = Some((words.get(key), Instant::now() + SAID));
+                }
                 Order::Begin { again } => {
                     if let Err(error) = self.begin(again) {
                         self.complain(error, flow);
@@ -255,31 +267,34 @@ impl<'a> Desk<'a> {
                     }
                 }
                 Order::Apply => self.changed(),
+                Order::Rebound => {
+                    self.host.keep_keys(self.lobby.bindings());
+                    self.write_anew();
+                }
                 Order::Quit => flow.set_exit(),
             }
         }
     }
 
-    /// The game hears something, if it is not for the window itself.
-    fn tell(&mut self, report: RawInput) {
-        let (now_s, picked) = (self.now_s(), self.picked());
-        let Some(game) = &mut self.game else { return };
-        let report = match (report, picked) {
-            (RawInput::Key { key: Key::Letter('i'), down }, _) => {
-                game.shows_thoughts ^= down;
-                return;
+    fn tell(&mut self, input: HandInput) {
+        if let Some(game) = &mut self.game {
+            game.outbox.say(input);
+        }
+    }
+
+    /// Does what is the window's to do.
+    fn act(&mut self, action: Action) {
+        let now_s = self.now_s();
+        match (action, &mut self.game) {
+            // What stands there now is drawn again.
+            (Action::Picture, _) => (self.wants_picture, self.shown) = (true, None),
+            (Action::Meters, _) => self.shows_meters ^= true,
+            (Action::Thoughts, Some(game)) => game.shows_thoughts ^= true,
+            (_, Some(game)) if action.controller() == Controller::Sound => {
+                game.heard.iter_mut().for_each(|heard| heard.turn(action, now_s));
             }
-            (RawInput::Key { key, down: true }, _)
-                if game.heard.as_mut().is_some_and(|heard| heard.turn(key, now_s)) =>
-            {
-                return;
-            }
-            (RawInput::Button { button: Button::Left, down: true }, Some(option)) => {
-                RawInput::Picked { option }
-            }
-            (report, _) => report,
-        };
-        game.outbox.say(report);
+            _ => {}
+        }
     }
 
     /// The line of the menu under a free pointer.
@@ -332,7 +347,9 @@ impl<'a> Desk<'a> {
             // A window that is gone need not be told.
             let _ = ended.send_event(GameEnded);
         };
-        let game = Running::begin(prepared, &self.graphics, language, tell)?;
+        let written = (language, self.lobby.bindings());
+        let is_shaken = self.pads.is_some();
+        let game = Running::begin(prepared, &self.graphics, written, is_shaken, tell)?;
         self.game = Some(game);
         (self.volume, self.aid) = (None, None);
         self.lobby.began();
@@ -392,9 +409,15 @@ impl<'a> Desk<'a> {
         if std::mem::replace(&mut self.spoken, language) == language {
             return;
         }
-        self.words = Words::of_menus(language);
+        self.write_anew();
+    }
+
+    /// Writes everything anew: the language or the keys are others now.
+    fn write_anew(&mut self) {
+        let (language, bindings) = (self.spoken, self.lobby.bindings());
+        self.words = Words::of_menus(language).with_keys(bindings);
         if let Some(game) = &mut self.game {
-            game.speak(language);
+            game.speak(language, bindings);
         }
     }
 
@@ -403,7 +426,7 @@ impl<'a> Desk<'a> {
         let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
         let aid = menu.settings.aim_aid;
         if self.aid.replace(aid) != Some(aid) {
-            game.outbox.say(RawInput::Aid(aid));
+            game.outbox.say(HandInput::Aid(aid));
         }
         // Keys turn it too: what is set acts when it is set.
         let volume = menu.settings.volume_factor();
@@ -426,23 +449,39 @@ impl<'a> Desk<'a> {
     fn seen(&mut self) -> Option<(DrawList, Hud)> {
         let now_s = self.now_s();
         let panel = self.panel();
+        let help = self.help();
         let Some(game) = &mut self.game else {
             let (list, _) = self.backdrop.as_ref()?;
-            return Some((list.clone(), Hud { menu: panel, ..Hud::default() }));
+            return Some((list.clone(), Hud { menu: panel, help, ..Hud::default() }));
         };
         let view = game.view();
-        let (list, mut hud) = game.seen(&view, now_s);
+        let (list, mut hud) = game.seen(&view, self.lobby.is_by_pad(), now_s);
+        if help.is_some() {
+            (hud.help, hud.help_hint) = (help, String::new());
+        }
         if let Some(mut panel) = panel {
             if let (Some((title, _)), true) = (&hud.banner, self.lobby.is_over()) {
                 panel.title.clone_from(title);
             }
             // The menu says it.
-            (hud.banner, hud.help) = (None, None);
+            hud.banner = None;
             (hud.hint, hud.help_hint) = (String::new(), String::new());
             hud.options.clear();
             hud.menu = Some(panel);
         }
         Some((list, hud))
+    }
+
+    /// The table of controls, while it is wanted.
+    fn help(&self) -> Option<(String, Vec<(String, String)>)> {
+        let is_by_pad = self.lobby.is_by_pad();
+        let of = match &self.game {
+            _ if !self.lobby.shows_help() => return None,
+            Some(game) if !self.lobby.is_menu_open() => game.help(is_by_pad),
+            _ => HelpOf::Menu,
+        };
+        let words = Words::new(self.spoken).with_keys(self.lobby.bindings());
+        Some((words.get("help_title"), words.help(of)))
     }
 
     fn draw(&mut self) {
@@ -452,10 +491,15 @@ impl<'a> Desk<'a> {
             game.meters.show(self.shows_meters);
             begun = game.meters.now();
             game.take_news(now_s);
-            for order in self.lobby.see(game.mode() == HumanMode::Paused) {
-                if let Order::Tell(report) = order {
-                    game.outbox.say(report);
+            for order in self.lobby.see(&game.view()) {
+                if let Order::Tell(input) = order {
+                    game.outbox.say(input);
                 }
+            }
+            let felt = game.shake.take();
+            let wants = self.lobby.menu().is_none_or(|menu| menu.settings.rumble);
+            if let (Some(rumble), Some(pads), true) = (felt, &self.pads, wants) {
+                pads.shake(rumble);
             }
         }
         self.hold_pointer();

@@ -112,11 +112,16 @@ impl FeltScreen {
         }
     }
 
+    /// Whether a mouse moves the hand that holds the device.
+    pub fn is_by_mouse(&self) -> bool {
+        self.setup.by_mouse && self.leads
+    }
+
     /// Adds it to what is written.
     pub fn write(&self, hud: Hud, view: &HumanView, words: &Words) -> Hud {
         let is_shown = self.setup.overlay != view.overlay;
         let panel = self.overlay.panel(words).filter(|_| is_shown);
-        let by_mouse = (self.setup.by_mouse && self.leads).then_some(self.setup.look.tool);
+        let by_mouse = self.is_by_mouse().then_some(self.setup.look.tool);
         let mut hud = hud.with_felt(panel, by_mouse, view, words);
         let aims = matches!(view.mode, HumanMode::Aiming | HumanMode::Stroking);
         if self.leads && by_mouse.is_none() && self.setup.look.tool == FeltTool::Cue && aims {

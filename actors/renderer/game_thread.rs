@@ -1,7 +1,7 @@
 //! The thread of a game beside its window, which does not outlive the window.
 
 use crate::conductor::RunError;
-use hapticbillard::input::RawInput;
+use hapticbillard::input::HandInput;
 use hapticbillard::tick::Finished;
 use std::panic::{self, AssertUnwindSafe};
 use std::thread::{self, JoinHandle};
@@ -15,7 +15,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 pub struct GameThread {
     /// None when it was joined.
     thread: Option<JoinHandle<thread::Result<Result<Finished, RunError>>>>,
-    says: flume::Sender<RawInput>,
+    says: flume::Sender<HandInput>,
 }
 
 impl GameThread {
@@ -27,7 +27,7 @@ impl GameThread {
     pub fn begin(
         play: impl FnOnce() -> Result<Finished, RunError> + Send + 'static,
         ended: impl FnOnce() + Send + 'static,
-        says: flume::Sender<RawInput>,
+        says: flume::Sender<HandInput>,
     ) -> Result<Self, RunError> {
         let thread = thread::Builder::new().name("game".into()).spawn(move || {
             let finished = panic::catch_unwind(AssertUnwindSafe(play));
@@ -55,7 +55,7 @@ impl Drop for GameThread {
         let begin = Instant::now();
         while !thread.is_finished() && begin.elapsed() < PATIENCE {
             // A full channel is emptied every tick, so that there is room the next time.
-            let _ = self.says.try_send(RawInput::Closed);
+            let _ = self.says.try_send(HandInput::Closed);
             thread::sleep(Duration::from_millis(5));
         }
         if thread.is_finished() {
@@ -77,12 +77,12 @@ mod tests {
     fn a_window_that_panics_ends_its_game_in_order() {
         let (says, hears) = flume::bounded(2);
         // The channel is full of older reports.
-        while says.try_send(RawInput::FocusLost).is_ok() {}
+        while says.try_send(HandInput::FocusLost).is_ok() {}
         let has_ended = Arc::new(AtomicBool::new(false));
         let told = has_ended.clone();
         let play = move || {
             thread::sleep(Duration::from_millis(20));
-            while hears.recv() != Ok(RawInput::Closed) {}
+            while hears.recv() != Ok(HandInput::Closed) {}
             Ok(Finished { end: End::Quit, tick: Tick(1), hash: None, verified: 0 })
         };
         let tell = move || told.store(true, Ordering::SeqCst);

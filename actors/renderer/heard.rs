@@ -2,7 +2,7 @@
 //! mode.
 
 use crate::sound::Knobs;
-use hapticbillard::input::{CameraPose, Key};
+use hapticbillard::input::{Action, CameraPose};
 use hapticbillard::renderer::{Hud, Words};
 use hapticbillard::sound::{Listener, Mode};
 use std::sync::Arc;
@@ -50,21 +50,20 @@ impl HeardScreen {
         self.setup.knobs.set(share);
     }
 
-    /// A key goes down at `now_s` on the window's clock; says whether it is one for the volume.
-    pub fn turn(&mut self, key: Key, now_s: f64) -> bool {
-        match key {
-            Key::Letter('+') => self.setup.knobs.turn(true),
-            Key::Letter('-') => self.setup.knobs.turn(false),
-            Key::Letter('m') => self.setup.knobs.mute(),
-            Key::Letter('n') => {
+    /// Does what an action does to the sound at `now_s` on the window's clock.
+    pub fn turn(&mut self, action: Action, now_s: f64) {
+        match action {
+            Action::Louder => self.setup.knobs.turn(true),
+            Action::Softer => self.setup.knobs.turn(false),
+            Action::Mute => self.setup.knobs.mute(),
+            Action::SoundMode => {
                 self.setup.knobs.change_mode();
                 self.mode_s = now_s;
-                return true;
+                return;
             }
-            _ => return false,
+            _ => return,
         }
         self.turned_s = now_s;
-        true
     }
 
     /// Volume and mode, while they were turned just now; that it is off, as long as it is;

@@ -44,9 +44,10 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     }
     if let Some(menu) = &hud.menu {
         pen.menu(menu);
-    } else if let Some((title, rows)) = &hud.help {
+    }
+    if let Some((title, rows)) = &hud.help {
         pen.help(title, rows);
-    } else if let Some((title, hint)) = &hud.banner {
+    } else if let (Some((title, hint)), None) = (&hud.banner, &hud.menu) {
         pen.banner(title, hint);
     }
 }

@@ -12,6 +12,9 @@ pub fn button(button: MouseButton) -> Option<Button> {
         MouseButton::Left => Some(Button::Left),
         MouseButton::Right => Some(Button::Right),
         MouseButton::Middle => Some(Button::Middle),
+        // As X11 and evdev count them; other systems begin at 1 with the hind one.
+        MouseButton::Other(1 | 8) => Some(Button::Back),
+        MouseButton::Other(2 | 9) => Some(Button::Forward),
         MouseButton::Other(_) => None,
     }
 }
@@ -38,34 +41,74 @@ pub fn key(code: VirtualKeyCode) -> Option<Key> {
         Code::Tab => Key::Tab,
         Code::LShift | Code::RShift => Key::Shift,
         Code::LControl | Code::RControl => Key::Control,
+        Code::LAlt => Key::Alt,
         Code::PageUp => Key::PageUp,
         Code::PageDown => Key::PageDown,
-        Code::F1 => Key::Help,
-        Code::F3 => Key::Meters,
-        Code::F12 => Key::Picture,
-        Code::Key1 | Code::Numpad1 => Key::Letter('1'),
-        Code::Key2 | Code::Numpad2 => Key::Letter('2'),
-        Code::Key3 | Code::Numpad3 => Key::Letter('3'),
-        Code::A => Key::Letter('a'),
-        Code::B => Key::Letter('b'),
-        Code::C => Key::Letter('c'),
-        Code::D => Key::Letter('d'),
-        Code::F => Key::Letter('f'),
-        Code::H => Key::Letter('h'),
-        Code::I => Key::Letter('i'),
-        Code::M => Key::Letter('m'),
-        Code::N => Key::Letter('n'),
-        Code::O => Key::Letter('o'),
-        Code::P => Key::Letter('p'),
-        Code::Q => Key::Letter('q'),
-        Code::R => Key::Letter('r'),
-        Code::S => Key::Letter('s'),
-        Code::T => Key::Letter('t'),
-        Code::U => Key::Letter('u'),
-        Code::V => Key::Letter('v'),
-        Code::X => Key::Letter('x'),
+        Code::Home => Key::Home,
+        Code::End => Key::End,
+        Code::Insert => Key::Insert,
+        Code::Delete => Key::Delete,
+        Code::Back => Key::Backspace,
         Code::Plus | Code::Equals | Code::NumpadAdd => Key::Letter('+'),
         Code::Minus | Code::NumpadSubtract => Key::Letter('-'),
-        _ => return None,
+        Code::Comma => Key::Letter(','),
+        Code::Period => Key::Letter('.'),
+        Code::Semicolon => Key::Letter(';'),
+        Code::Apostrophe => Key::Letter('\''),
+        Code::Slash => Key::Letter('/'),
+        Code::Backslash => Key::Letter('\\'),
+        Code::LBracket => Key::Letter('['),
+        Code::RBracket => Key::Letter(']'),
+        Code::Grave => Key::Letter('`'),
+        Code::OEM102 => Key::Letter('<'),
+        code => return numbered(code),
     })
+}
+
+/// Letters, digits and function keys, whose codes follow each other.
+fn numbered(code: VirtualKeyCode) -> Option<Key> {
+    use VirtualKeyCode as Code;
+    let from = |first: Code| (code as u32).checked_sub(first as u32);
+    let within = |first: Code, count: u32| from(first).filter(|place| *place < count);
+    let letter = |first: u8, place: u32| Key::Letter((first + place as u8) as char);
+    if let Some(place) = within(Code::A, 26) {
+        return Some(letter(b'a', place));
+    }
+    // The code of 0 stands behind that of 9.
+    if let Some(place) = within(Code::Key1, 9) {
+        return Some(letter(b'1', place));
+    }
+    if let Some(place) = within(Code::Numpad0, 10) {
+        return Some(letter(b'0', place));
+    }
+    if code == Code::Key0 {
+        return Some(Key::Letter('0'));
+    }
+    within(Code::F1, 12).map(|place| Key::Function(place as u8 + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_follow_each_other_as_they_are_counted_on() {
+        use VirtualKeyCode as Code;
+        let keys = [
+            (Code::A, Key::Letter('a')),
+            (Code::Q, Key::Letter('q')),
+            (Code::Z, Key::Letter('z')),
+            (Code::Key1, Key::Letter('1')),
+            (Code::Key9, Key::Letter('9')),
+            (Code::Key0, Key::Letter('0')),
+            (Code::Numpad3, Key::Letter('3')),
+            (Code::F1, Key::Function(1)),
+            (Code::F12, Key::Function(12)),
+        ];
+        for (code, expected) in keys {
+            assert_eq!(key(code), Some(expected), "{code:?}");
+        }
+        assert_eq!(key(Code::F13), None);
+        assert_eq!(key(Code::Mute), None);
+    }
 }

@@ -52,10 +52,13 @@ impl Pen<'_> {
         }
     }
 
-    /// A value between two arrows.
+    /// A value, between two arrows if there are others.
     fn choice(&self, n: usize, value: &str, line: &MenuLine, colour: Color32, at: &MenuLayout) {
         let area = rect(at.value(n));
         self.text(area.center(), Align2::CENTER_CENTER, value, 18.0, colour);
+        if !line.is_choice {
+            return;
+        }
         let arrow = if line.is_live { FAINT } else { DEAD };
         let reach = 0.5 * area.width() - 10.0 * self.unit;
         for side in [-1.0, 1.0] {

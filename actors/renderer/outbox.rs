@@ -1,6 +1,6 @@
 //! What the window has to say to the hand, in order.
 
-use hapticbillard::input::RawInput;
+use hapticbillard::input::HandInput;
 use hapticbillard::renderer::QueueReading;
 use std::collections::VecDeque;
 
@@ -15,30 +15,37 @@ const WAITING: usize = 4096;
 /// here [`WAITING`] wait, the game does not listen: all of them are dropped and counted, and
 /// everything counts as let go.
 pub struct Outbox {
-    channel: flume::Sender<RawInput>,
-    waiting: VecDeque<RawInput>,
+    channel: flume::Sender<HandInput>,
+    waiting: VecDeque<HandInput>,
     lost: u64,
 }
 
 impl Outbox {
     /// An outbox for this channel.
-    pub fn new(channel: flume::Sender<RawInput>) -> Self {
+    pub fn new(channel: flume::Sender<HandInput>) -> Self {
         Outbox { channel, waiting: VecDeque::new(), lost: 0 }
     }
 
     /// Takes a report, and sends what can be sent.
-    pub fn say(&mut self, report: RawInput) {
+    pub fn say(&mut self, report: HandInput) {
         match (self.waiting.back_mut(), report) {
-            (Some(RawInput::Moved { right, up }), RawInput::Moved { right: x, up: y }) => {
+            (Some(HandInput::Moved { right, up }), HandInput::Moved { right: x, up: y }) => {
                 *right += x;
                 *up += y;
             }
+            // Of a stick and of a trigger only the newest place counts.
+            (Some(HandInput::Stick { stick, at }), HandInput::Stick { stick: same, at: new })
+                if *stick == same =>
+            {
+                *at = new;
+            }
+            (Some(HandInput::Trigger(pressed)), HandInput::Trigger(new)) => *pressed = new,
             _ => self.waiting.push_back(report),
         }
         self.send();
         if WAITING < self.waiting.len() {
             self.lost += self.waiting.len() as u64;
-            self.waiting = VecDeque::from([RawInput::FocusLost]);
+            self.waiting = VecDeque::from([HandInput::FocusLost]);
         }
     }
 
@@ -73,14 +80,14 @@ impl Outbox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hapticbillard::input::Button;
+    use hapticbillard::input::Action;
 
     #[test]
     fn a_full_channel_adds_movements_up_and_keeps_buttons_in_order() {
         let (sender, receiver) = flume::bounded(1);
         let mut outbox = Outbox::new(sender);
-        let moved = |right| RawInput::Moved { right, up: -right };
-        let press = RawInput::Button { button: Button::Left, down: true };
+        let moved = |right| HandInput::Moved { right, up: -right };
+        let press = HandInput::Act { action: Action::Stroke, down: true };
         for report in [moved(1.0), moved(2.0), moved(3.0), press, moved(4.0), moved(5.0)] {
             outbox.say(report);
         }
@@ -96,7 +103,7 @@ mod tests {
     fn what_nobody_ever_takes_is_dropped_and_everything_is_let_go() {
         let (sender, receiver) = flume::bounded(1);
         let mut outbox = Outbox::new(sender);
-        let press = |down| RawInput::Button { button: Button::Left, down };
+        let press = |down| HandInput::Act { action: Action::Stroke, down };
         let presses = WAITING + 2;
         for number in 0..presses {
             outbox.say(press(number % 2 == 0));
@@ -104,6 +111,6 @@ mod tests {
         assert_eq!(outbox.reading().lost, (presses - 1) as u64);
         assert_eq!(receiver.try_recv(), Ok(press(true)));
         outbox.send();
-        assert_eq!(receiver.try_recv(), Ok(RawInput::FocusLost));
+        assert_eq!(receiver.try_recv(), Ok(HandInput::FocusLost));
     }
 }

@@ -9,11 +9,12 @@ use super::stage::Stage;
 use crate::conductor::RunError;
 use crate::event_manager::Sink;
 use crate::meters::Meters;
+use hapticbillard::events::{Event, Topic, Topics};
 use hapticbillard::ids::GameKind;
-use hapticbillard::input::{HumanMode, HumanView, RawInput};
+use hapticbillard::input::{Bindings, HandInput, HumanMode, HumanView, Rumble};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    DrawList, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+    DrawList, HelpOf, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
 };
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
@@ -49,7 +50,7 @@ pub struct GameSetup {
 /// The game's ends of what joins it with its window.
 pub struct Ports {
     /// What devices say.
-    pub raw: flume::Receiver<RawInput>,
+    pub raw: flume::Receiver<HandInput>,
     /// What the hand sees and does.
     pub view: triple_buffer::Input<HumanView>,
     /// The newest state of the world.
@@ -85,6 +86,8 @@ pub struct Running {
     pub shows_thoughts: bool,
     /// What is measured.
     pub meters: MetersScreen,
+    /// The hardest contact since somebody took it, for a gamepad.
+    pub shake: Option<Rumble>,
     view: triple_buffer::Output<HumanView>,
     world: triple_buffer::Output<Arc<Snapshot>>,
     mail: flume::Receiver<Delivered>,
@@ -100,14 +103,16 @@ pub struct Running {
 }
 
 impl Running {
-    /// Begins a game; `ended` is called on its thread when it is over.
+    /// Begins a game; `ended` is called on its thread when it is over. `is_shaken`: a gamepad
+    /// wants to know of contacts.
     ///
     /// # Errors
     /// The system gives no thread.
     pub fn begin(
         prepared: Prepared,
         context: &Context,
-        language: Language,
+        (language, bindings): (Language, &Bindings),
+        is_shaken: bool,
         ended: impl FnOnce() + Send + 'static,
     ) -> Result<Self, RunError> {
         let Prepared { setup, play } = prepared;
@@ -115,7 +120,9 @@ impl Running {
         let (view_in, view) = triple_buffer::triple_buffer(&HumanView::default());
         let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
         let (mail_in, mail) = flume::bounded(MAIL);
-        let sink = Sink::new("window", Scoreboard::topics(), mail_in);
+        let contacts = [Topic::CueBallStruck, Topic::BallsCollided, Topic::CushionHit];
+        let contacts = if is_shaken { Topics::of(&contacts) } else { Topics::NONE };
+        let sink = Sink::new("window", Scoreboard::topics().or(contacts), mail_in);
         let meters = Arc::new(Meters::default());
         let measured = meters.clone();
         let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
@@ -127,12 +134,13 @@ impl Running {
             heard: setup.heard.map(HeardScreen::new),
             shows_thoughts: false,
             meters: MetersScreen::new(meters),
+            shake: None,
             view,
             world,
             mail,
             playhead: Playhead::new(setup.first, setup.speed),
             texts: texts(language, &setup.names, setup.game),
-            words: Words::new(language),
+            words: Words::new(language).with_keys(bindings),
             names: setup.names,
             game: setup.game,
             radii: setup.radii,
@@ -142,10 +150,10 @@ impl Running {
         })
     }
 
-    /// Writes everything in another language from now on.
-    pub fn speak(&mut self, language: Language) {
+    /// Writes everything in this language and with these keys from now on.
+    pub fn speak(&mut self, language: Language, bindings: &Bindings) {
         self.texts = texts(language, &self.names, self.game);
-        self.words = Words::new(language);
+        self.words = Words::new(language).with_keys(bindings);
     }
 
     /// Waits for the end of the game. A panic of its thread goes on here; none if it has ended
@@ -171,6 +179,10 @@ impl Running {
             self.meters.hear(&delivered);
             for stamped in delivered.events.iter() {
                 self.board.hear(&stamped.event);
+                if let Event::Fact(fact) = &stamped.event {
+                    let felt = Rumble::of(fact).into_iter().chain(self.shake);
+                    self.shake = felt.max_by(|a, b| a.strength.total_cmp(&b.strength));
+                }
             }
         }
         let state = self.world.read().clone();
@@ -180,9 +192,12 @@ impl Running {
         }
     }
 
-    /// What is drawn and written at `now_s`.
-    pub fn seen(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+    /// What is drawn and written at `now_s`, for somebody who holds a gamepad or not.
+    pub fn seen(&mut self, view: &HumanView, is_by_pad: bool, now_s: f64) -> (DrawList, Hud) {
         let (mut list, mut written) = self.drawn(view, now_s);
+        if is_by_pad {
+            written = written.for_pad(view, &self.words);
+        }
         if let Some(insight) = self.board.insight.as_ref().filter(|_| self.shows_thoughts) {
             draw_thoughts(insight, &self.radii, &mut list);
             let name = self.board.name(insight.player);
@@ -195,6 +210,15 @@ impl Running {
         }
         written.meters = self.meters.panel(&self.words, now_s);
         (list, written)
+    }
+
+    /// What there is to press in it.
+    pub fn help(&self, is_by_pad: bool) -> HelpOf {
+        match &self.felt {
+            Some(felt) if felt.is_by_mouse() => HelpOf::Felt,
+            _ if is_by_pad => HelpOf::Pad,
+            _ => HelpOf::Keys,
+        }
     }
 
     fn drawn(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {

@@ -5,7 +5,9 @@ use super::desk::Desk;
 use super::running::Prepared;
 use crate::conductor::RunError;
 use crate::error::Error;
+use crate::input::PadDriver;
 use crate::pacer::StopFlag;
+use hapticbillard::input::Bindings;
 use hapticbillard::menu::{Menu, Settings};
 use hapticbillard::renderer::DrawList;
 use hapticbillard::rules::Language;
@@ -38,6 +40,10 @@ pub struct WindowSetup {
     pub stop: StopFlag,
     /// Menus; without them the window is there for one game.
     pub menu: Option<Menu>,
+    /// What keys mean, and what the player must know of them.
+    pub keys: (Bindings, Option<String>),
+    /// Gamepads, where there may be some.
+    pub pads: Option<PadDriver>,
     /// It fills the screen whatever the menus say.
     pub fullscreen: bool,
     /// A game begins at once, before any menu.
@@ -85,6 +91,9 @@ pub trait Host {
 
     /// What is set shall be there the next time.
     fn keep(&mut self, settings: &Settings);
+
+    /// What keys mean shall be so the next time.
+    fn keep_keys(&mut self, bindings: &Bindings);
 }
 
 /// The game is over: its thread has nothing more to say.

@@ -1,6 +1,6 @@
-//! What a person announces with the next stroke: proposed from the aim, changed by keys.
+//! What a person announces with the next stroke: proposed from the aim, changed by hand.
 
-use super::sight;
+use super::{Action, sight};
 use crate::events::{Call, CallKind, Turn};
 use crate::ids::{BallId, PocketId};
 use crate::physics::Snapshot;
@@ -23,7 +23,7 @@ pub struct CallView {
 pub(super) struct Calling {
     /// A kind of shot in place of a ball.
     kind: Option<CallKind>,
-    /// Chosen by key in place of what the aim proposes; forgotten when the aim goes to another
+    /// Chosen by hand in place of what the aim proposes; forgotten when the aim goes to another
     /// ball.
     ball: Option<BallId>,
     pocket: Option<PocketId>,
@@ -56,17 +56,18 @@ impl Calling {
         }
     }
 
-    /// A key went down that changes the call. True if it is one.
-    pub fn key(&mut self, letter: Option<char>, backwards: bool, sight: &Sight<'_>) -> bool {
+    /// Changes the call, where this may be called.
+    pub fn change(&mut self, action: Action, backwards: bool, sight: &Sight<'_>) {
         let calls = sight.turn.calls;
-        match letter {
-            Some('s') if calls.safety => self.toggle(CallKind::Safety),
-            Some('o') if calls.push_out => self.toggle(CallKind::PushOut),
-            Some('b') if calls.ball => self.next_ball(sight, backwards),
-            None if calls.ball && calls.pocket => self.next_pocket(sight, backwards),
-            _ => return false,
+        match action {
+            Action::Safety if calls.safety => self.toggle(CallKind::Safety),
+            Action::PushOut if calls.push_out => self.toggle(CallKind::PushOut),
+            Action::NextBall if calls.ball => self.next_ball(sight, backwards),
+            Action::NextPocket if calls.ball && calls.pocket => {
+                self.next_pocket(sight, backwards);
+            }
+            _ => {}
         }
-        true
     }
 
     fn toggle(&mut self, kind: CallKind) {

@@ -1,4 +1,4 @@
-//! How mouse and keyboard feel: every gain and time constant of the hand, with its unit.
+//! How mouse, keyboard and gamepad feel: every gain and time constant of the hand, with its unit.
 //!
 //! Movements of the mouse come in heights of the window, so that a gain does not depend on the
 //! window's size. Whoever computes movements for a script uses the same numbers.
@@ -74,3 +74,16 @@ pub const KEY_PULL_M_PER_S: f64 = 0.26;
 pub const KEY_SPEED_LEAST_M_S: f64 = 0.3;
 /// See above.
 pub const KEY_SPEED_MOST_M_S: f64 = 8.0;
+
+/// How much faster a stick that is pushed out fully turns the cue than a key does: half a turn in
+/// under three seconds; its curve makes it finer than a key near the middle.
+pub const STICK_TURN: f64 = 3.0;
+/// The same for a ball in hand.
+pub const STICK_PLACING: f64 = 2.0;
+/// How fast a stick looks round [rad/s].
+pub const LOOK_RAD_PER_S: f64 = 1.5;
+/// How fast the tip follows a trigger, backwards and forwards [m/s]: a third of a second to the
+/// end. The tip shows how far it is, so what is seen is what strikes.
+pub const TRIGGER_PULL_M_PER_S: f64 = 1.2;
+/// A trigger that is pressed no farther than this rests [share of its way].
+pub const TRIGGER_BEGIN: f64 = 0.08;

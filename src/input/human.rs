@@ -1,29 +1,32 @@
-//! A person at mouse and keyboard.
+//! A person, whatever is in their hands: a mouse, a keyboard, a gamepad, a stylus.
+//!
+//! Of devices only what they mean comes here ([`HandInput`]); which key is which action stands in
+//! [`Bindings`]. In a turn:
 //!
 //! | | while aiming | while placing | while stroking |
 //! |---|---|---|---|
-//! | mouse | turns the cue | moves the cue ball | moves the tip along the shaft |
-//! | left button | held: a stroke | puts the ball down | let go: back to aiming |
-//! | right button held, arrows | tip offset | arrows: move the ball | |
-//! | `a` and `d` | turn the cue | | |
-//! | Return | held: the tip is pulled back | puts the ball down | let go: the stroke |
-//! | Page up and down, Control and wheel | raises the butt | | |
-//! | space, `r` | tip to the middle | | |
-//! | Shift held | a tenth of everything | a tenth | |
+//! | mouse | turns the cue | moves the ball | moves the tip along the shaft |
+//! | `stroke` held | a stroke | puts the ball down | let go: back to aiming |
+//! | `mouse_moves_tip` held | the mouse moves the tip | | |
+//! | `tip_left` and so on | move the tip | move the ball | |
+//! | `turn_left`, `turn_right` | turn the cue | | |
+//! | `strike` | held: the tip is pulled back | puts the ball down | let go: the stroke |
+//! | `raise`, `lower`, wheel with `wheel_raises` | raise the butt | | |
+//! | left stick | turns the cue, raises the butt | moves the ball | |
+//! | right stick | moves the tip | | |
+//! | right trigger | pulls the tip back | | let go quickly: the stroke |
+//! | `fine` held | a tenth of everything | a tenth | |
 //!
 //! A call is proposed from the aim: the first legal ball that it meets, and the pocket nearest to
-//! that ball's way. Tab goes to the next pocket and `b` to the next ball, backwards with Shift; `s`
-//! calls a safety, `o` a push-out, or takes that back. It is said when the stroke begins. Options
-//! are taken with `1` to `3`, or by a click on their line. In training `u` takes a shot back, and
-//! `t` takes up a ball: Tab is the next one then, and `t` again puts it back.
+//! that ball's way. `next_pocket` and `next_ball` go on from there, backwards with `fine`; `safety`
+//! and `push_out` call those, or take that back. It is said when the stroke begins.
 //!
-//! `x` goes through what helps to aim: nothing, a line, or the ways of the balls to their end.
-//!
-//! At any time: the middle button or `c` looks round, the wheel zooms, `v` is a bird's eye, F1
-//! helps, `h` shows or hides the panel of a haptic device, Escape or `p` pauses, and `q` in a pause
-//! quits. Who waits for rolling balls or for somebody else holds `f`, and time runs faster.
+//! At any time `look` looks round with the mouse or the right stick, and the wheel zooms. Who waits
+//! for rolling balls or for somebody else holds `hurry`, and time runs faster.
 //!
 //! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
+//!
+//! [`Bindings`]: super::Bindings
 
 mod ahead;
 use ahead::Ahead;
@@ -32,6 +35,9 @@ mod eye;
 
 mod keys;
 use keys::KeyStroke;
+
+mod pad;
+use pad::Sticks;
 
 mod says;
 
@@ -48,7 +54,7 @@ use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
 use super::placing::Placing;
 use super::tip::{Tip, address_path, stroke_path};
-use super::{Button, Key, RawInput, sight};
+use super::{Action, HandInput, sight};
 use crate::ball::POOL_RADIUS_M;
 use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{
@@ -74,13 +80,13 @@ enum Stage {
     Placing(Placing),
     /// The cue is at the address.
     Aiming,
-    /// The left button is held. Boxed: it is much larger than the others.
+    /// The cue is held for a stroke. Boxed: it is much larger than the others.
     Stroking(Box<Tip>),
     /// A ball was struck and the cue is withdrawn.
     Struck,
 }
 
-/// The hand of one or two people who share mouse and keyboard.
+/// The hand of one or two people who share their devices.
 #[derive(Debug, Clone)]
 pub struct Human {
     players: Vec<PlayerId>,
@@ -103,7 +109,7 @@ pub struct Human {
     raised_rad: f64,
     /// Middle of the cue ball that is aimed at [m].
     centre: DVec3,
-    /// A stroke by a key, while there is one.
+    /// A stroke by a key or a trigger, while there is one.
     key_stroke: Option<KeyStroke>,
     /// The way of the tip in the last tick of a stroke.
     path: Option<CuePath>,
@@ -119,9 +125,10 @@ pub struct Human {
     is_mouse_felt: bool,
 
     held: Held,
+    /// A gamepad's sticks, and the trigger that strokes.
+    sticks: Sticks,
     camera: Camera,
     is_bird: bool,
-    help: bool,
     overlay: bool,
     paused: bool,
     /// The last answer said that time stands still: the frame of the next one is not used.
@@ -157,9 +164,9 @@ impl Human {
             stylus: None,
             is_mouse_felt: false,
             held: Held::default(),
+            sticks: Sticks::default(),
             camera: Camera::new(),
             is_bird: false,
-            help: false,
             overlay: false,
             paused: false,
             was_paused: false,
@@ -187,9 +194,9 @@ impl Human {
         self
     }
 
-    /// What the player does in `tick`, given what the devices said since the tick before.
-    pub fn inflow(&mut self, tick: Tick, raw: &[RawInput]) -> Inflow {
-        self.inflow_beside(tick, raw, None)
+    /// What the player does in `tick`, given what the hand heard since the tick before.
+    pub fn inflow(&mut self, tick: Tick, heard: &[HandInput]) -> Inflow {
+        self.inflow_beside(tick, heard, None)
     }
 
     /// The same beside what a stylus says, if it says something.
@@ -199,15 +206,17 @@ impl Human {
     pub fn inflow_beside(
         &mut self,
         tick: Tick,
-        raw: &[RawInput],
+        heard: &[HandInput],
         word: Option<&StylusWord>,
     ) -> Inflow {
         let mut up = 0.0;
         let mut quit = false;
-        for input in raw {
+        for input in heard {
             quit |= self.take(*input, &mut up);
         }
         self.hold_keys();
+        self.hold_sticks();
+        self.hold_trigger();
         if let Some(word) = word {
             self.follow_stylus(tick, word);
         }
@@ -227,43 +236,49 @@ impl Human {
         Inflow { frame, next, paused: self.paused, hurried: self.is_hurried(), quit }
     }
 
-    /// Takes one report; adds to `up` what moves the tip. True if the game shall end.
-    fn take(&mut self, input: RawInput, up: &mut f64) -> bool {
+    /// Takes one thing; adds to `up` what moves the tip. True if the game shall end.
+    fn take(&mut self, input: HandInput, up: &mut f64) -> bool {
         match input {
-            RawInput::Moved { right, up: upwards } => self.moved(right, upwards, up),
-            RawInput::Button { button, down } => {
-                self.held.button(button, down);
-                match (button, down) {
-                    (Button::Left, true) => self.press(),
-                    (Button::Left, false) => self.release(std::mem::take(up)),
-                    _ => {}
+            HandInput::Moved { right, up: upwards } => self.moved(right, upwards, up),
+            HandInput::Wheel { notches } => self.wheel(notches),
+            HandInput::Act { action, down } => {
+                self.held.act(action, down);
+                match (action, down) {
+                    (Action::Stroke, false) => self.release(std::mem::take(up)),
+                    (Action::Strike, false) => self.release_key(),
+                    (_, true) => return self.begin(action),
+                    (_, false) => {}
                 }
             }
-            RawInput::Wheel { notches } => self.wheel(notches),
-            RawInput::Key { key, down } => {
-                self.held.key(key, down);
-                if (key, down) == (Key::Enter, false) {
-                    self.release_key();
+            HandInput::Stick { stick, at } => self.sticks.put(stick, at),
+            HandInput::Trigger(pressed) => self.sticks.pull(pressed),
+            HandInput::Picked { option } => self.pick(option),
+            HandInput::Aid(aid) => self.ahead.aid = aid,
+            HandInput::FocusLost => self.forget(),
+            HandInput::PadLost => {
+                self.forget();
+                if !self.paused {
+                    self.pause_or_resume();
                 }
-                return down && self.key(key);
             }
-            RawInput::Picked { option } => self.pick(option),
-            RawInput::Aid(aid) => self.ahead.aid = aid,
-            RawInput::FocusLost => {
-                self.held.forget();
-                self.let_go();
-            }
-            RawInput::Closed => return true,
+            HandInput::Closed => return true,
         }
         false
     }
 
+    /// Everything counts as let go.
+    fn forget(&mut self) {
+        self.held.forget();
+        self.sticks = Sticks::default();
+        self.let_go();
+    }
+
     fn fine(&self) -> f64 {
-        if self.held.has(Key::Shift) { FINE } else { 1.0 }
+        if self.held.has(Action::Fine) { FINE } else { 1.0 }
     }
 
     fn moved(&mut self, right: f64, upwards: f64, stroke: &mut f64) {
-        if self.held.has_button(Button::Middle) || self.held.has(Key::Letter('c')) {
+        if self.held.has(Action::Look) {
             self.camera.look(-right * LOOK_RAD_PER_HEIGHT, -upwards * LOOK_RAD_PER_HEIGHT);
             return;
         }
@@ -280,7 +295,7 @@ impl Human {
                 let by = DVec2::new(right, upwards) * (PLACING_M_PER_HEIGHT * fine);
                 placing.moved(by, self.table.bed.as_ref(), self.radius_m);
             }
-            Stage::Aiming if self.held.has_button(Button::Right) => {
+            Stage::Aiming if self.held.has(Action::MouseMovesTip) => {
                 self.shift_tip(
                     right * OFFSET_PER_HEIGHT * fine,
                     upwards * OFFSET_PER_HEIGHT * fine,
@@ -296,34 +311,37 @@ impl Human {
     }
 
     fn wheel(&mut self, notches: f64) {
-        if self.held.has(Key::Control) {
+        if self.held.has(Action::WheelRaises) {
             self.raise(notches * ELEVATION_RAD_PER_NOTCH * self.fine());
         } else {
             self.camera.zoom(libm::pow(ZOOM_PER_NOTCH, notches));
         }
     }
 
-    /// A key went down. True if the game shall end.
-    fn key(&mut self, key: Key) -> bool {
-        match key {
-            Key::Escape | Key::Letter('p') => self.pause_or_resume(),
-            Key::Letter('q') => return self.paused,
-            Key::Letter('v') => self.is_bird = !self.is_bird,
-            Key::Space | Key::Letter('r') if !self.paused => {
+    /// An action begins. True if the game shall end.
+    fn begin(&mut self, action: Action) -> bool {
+        match action {
+            Action::Stroke => self.press(),
+            Action::Strike => self.press_key(),
+            Action::Pause => self.pause_or_resume(),
+            Action::Quit => return self.paused,
+            Action::BirdsEye => self.is_bird = !self.is_bird,
+            Action::TipMiddle if !self.paused => {
                 let middle = |aim: &mut Aim| {
                     (aim.side_offset, aim.height_offset) = (0.0, 0.0);
                 };
                 self.change_aim(middle);
             }
-            Key::Letter(digit @ '1'..='3') => self.pick(digit as usize - '1' as usize),
-            Key::Letter('u') if self.is_practice && !self.paused => self.take_shot_back(),
-            Key::Letter('t') if self.is_practice && !self.paused => self.take_up(),
-            Key::Tab => self.step(None),
-            Key::Letter(letter @ ('b' | 's' | 'o')) => self.step(Some(letter)),
-            Key::Enter => self.press_key(),
-            Key::Help => self.help = !self.help,
-            Key::Letter('x') => self.ahead.aid = self.ahead.aid.next(),
-            Key::Letter('h') => self.overlay = !self.overlay,
+            Action::Option1 | Action::Option2 | Action::Option3 => {
+                action.option().into_iter().for_each(|option| self.pick(option));
+            }
+            Action::UndoShot if self.is_practice && !self.paused => self.take_shot_back(),
+            Action::TakeUpBall if self.is_practice && !self.paused => self.take_up(),
+            Action::NextPocket | Action::NextBall | Action::Safety | Action::PushOut => {
+                self.step(action);
+            }
+            Action::AimAid => self.ahead.aid = self.ahead.aid.next(),
+            Action::Panel => self.overlay = !self.overlay,
             _ => {}
         }
         false
@@ -372,7 +390,7 @@ impl Human {
         self.follow_with_call();
     }
 
-    /// The left button went down.
+    /// A hand takes the cue, or puts a ball down.
     fn press(&mut self) {
         if self.paused {
             return;
@@ -395,11 +413,11 @@ impl Human {
         }
     }
 
-    /// The left button is let go, after a movement `up` in this tick. The tip lags the hand: a
+    /// A hand that strokes lets go, after a movement `up` in this tick. The tip lags the hand: a
     /// hand that has gone through the ball has made its stroke, and the tip follows.
     fn release(&mut self, up: f64) {
         match &mut self.stage {
-            // A key strikes.
+            // A key or a trigger strikes.
             Stage::Stroking(_) if self.key_stroke.is_some() => {}
             Stage::Stroking(tip) if tip.is_hand_through(up) => tip.let_go(up),
             _ => self.let_go(),

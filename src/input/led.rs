@@ -3,7 +3,7 @@
 //! Turns and the ball in hand are those of a [`Human`]; the cue is the stylus'. Where a mouse moves
 //! the hand at the device, it puts the cue ball down before it does.
 
-use super::{Human, HumanMode, HumanView, Key, MouseSplit, RawInput, Reader};
+use super::{Action, HandInput, Human, HumanMode, HumanView, MouseSplit, Reader};
 use crate::events::{Command, Event, Source, Topics};
 use crate::hash::StateHash;
 use crate::physics::Snapshot;
@@ -49,10 +49,10 @@ impl LedHuman {
     }
 
     /// Takes the reports since the last tick; adds to `hand` what is for the hand at the device.
-    pub fn inflow(&mut self, tick: Tick, raw: &[RawInput], hand: &mut Vec<RawInput>) -> Led {
+    pub fn inflow(&mut self, tick: Tick, heard: &[HandInput], hand: &mut Vec<HandInput>) -> Led {
         let mode = self.human.view().mode;
         let mut own = Vec::new();
-        for report in raw {
+        for report in heard {
             let reader = self.split.reader_in(mode, report);
             if reader != Reader::Hand {
                 own.push(*report);
@@ -65,7 +65,7 @@ impl LedHuman {
         inflow
             .frame
             .retain(|entered| !matches!(entered.event, Event::Command(Command::MoveCue(_))));
-        inflow.hurried |= self.split.holds(Key::Letter('f')) && self.seen.is_rolling();
+        inflow.hurried |= self.split.holds(Action::Hurry) && self.seen.is_rolling();
 
         let is_at_ball = self.human.view().mode == HumanMode::Aiming;
         let begins = is_at_ball && std::mem::take(&mut self.is_called);

@@ -1,6 +1,6 @@
-//! What mouse and keyboard say, in units that do not depend on the window's size.
+//! What mouse, keyboard and gamepad say, in units that do not depend on the window's size.
 
-use super::AimAid;
+use super::PadInput;
 
 /// One report of a device.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +28,7 @@ pub enum RawInput {
     Key {
         /// Which.
         key: Key,
-        /// Pressed or let go. Repeats of a held key are not reported.
+        /// Pressed, or held and repeated by the system; or let go.
         down: bool,
     },
     /// A line of the options that are written in the window was clicked, counted from 0.
@@ -36,8 +36,8 @@ pub enum RawInput {
         /// Which.
         option: usize,
     },
-    /// So much help is wanted while aiming, from now on.
-    Aid(AimAid),
+    /// A gamepad.
+    Pad(PadInput),
     /// Another window has the keyboard now: everything held counts as let go.
     FocusLost,
     /// The window was closed.
@@ -53,6 +53,10 @@ pub enum Button {
     Right,
     /// The wheel.
     Middle,
+    /// The hind one at the side.
+    Back,
+    /// The front one at the side.
+    Forward,
 }
 
 /// A key that the game knows.
@@ -66,7 +70,7 @@ pub enum Key {
     Up,
     /// Arrow down.
     Down,
-    /// A letter, lower case, or a digit.
+    /// A letter, lower case, a digit, or a mark.
     Letter(char),
     /// The space bar.
     Space,
@@ -80,14 +84,22 @@ pub enum Key {
     Shift,
     /// Either control key.
     Control,
+    /// Either Alt key.
+    Alt,
     /// Page up.
     PageUp,
     /// Page down.
     PageDown,
-    /// F1: help.
-    Help,
-    /// F3: what is measured of the runtime, for the window.
-    Meters,
-    /// F12: the window is written into a picture.
-    Picture,
+    /// Home.
+    Home,
+    /// End.
+    End,
+    /// Insert.
+    Insert,
+    /// Delete.
+    Delete,
+    /// Backspace.
+    Backspace,
+    /// A function key, by its number.
+    Function(u8),
 }

@@ -141,8 +141,8 @@ pub struct HumanView {
     pub call: Option<CallView>,
     /// Any ball can be put anywhere, and shots can be taken back.
     pub is_practice: bool,
-    /// The help text is shown.
-    pub help: bool,
+    /// Nobody plays here: the player only looks on.
+    pub looks_on: bool,
     /// How the player looks round, for a camera that follows something else.
     pub look: Look,
     /// The panel of the haptic device is not as the scene begins with it: shown or hidden.

@@ -1,13 +1,20 @@
 //! Who hears what the devices say: a menu or the game; and what becomes of either.
 
-use super::{Act, Deed, Menu, MenuInput};
-use crate::input::{Button, Key, RawInput};
+use super::{Act, Deed, Menu, MenuInput, Notice};
+use crate::input::{
+    Action, Bindings, Button, Control, Controller, Controls, Edge, HandInput, HumanMode, HumanView,
+    Key, PadInput, PadMeaning, PadState, Profile, RawInput,
+};
 
 /// What a window has to do next, in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Order {
     /// The game hears this.
-    Tell(RawInput),
+    Tell(HandInput),
+    /// The window does this.
+    Do(Action),
+    /// The player is told this; the key of a text over the picture.
+    Say(&'static str),
     /// A game begins in place of whatever is shown; `again`: the last one.
     Begin {
         /// See above.
@@ -17,6 +24,8 @@ pub enum Order {
     Clear,
     /// Something was set: it becomes true now.
     Apply,
+    /// Keys mean something else from now on.
+    Rebound,
     /// The program ends.
     Quit,
 }
@@ -52,10 +61,18 @@ pub struct Lobby {
     is_resuming: bool,
     /// Whoever plays has had enough of it.
     is_leaving: bool,
-    /// Keys that are down, whoever has heard of it.
-    held: Vec<Key>,
-    /// Those of them whose press the game has heard: it hears their release too.
-    told: Vec<Key>,
+    /// What the game's hand does, as it was seen last, and whether anybody plays.
+    mode: HumanMode,
+    looks_on: bool,
+    /// What is held, and what it means.
+    controls: Controls,
+    pad: PadState,
+    /// The last that was pressed was on a gamepad.
+    is_by_pad: bool,
+    /// What there is to press is shown.
+    shows_help: bool,
+    /// The gamepad went in the middle of a game, and no menu has said so yet.
+    has_lost_pad: bool,
     /// The line of a menu whose scale the pointer holds.
     dragged: Option<usize>,
 }
@@ -63,9 +80,46 @@ pub struct Lobby {
 impl Lobby {
     /// Before the first game. Without menus there is one game, and nothing after it.
     pub fn new(menu: Option<Menu>) -> Self {
-        let (is_resuming, is_leaving) = (false, false);
-        let (held, told, dragged) = (Vec::new(), Vec::new(), None);
-        Lobby { menu, game: Game::None, is_resuming, is_leaving, held, told, dragged }
+        let bindings = menu.as_ref().map_or_else(Bindings::shipped, |menu| menu.bindings.clone());
+        Lobby {
+            menu,
+            game: Game::None,
+            is_resuming: false,
+            is_leaving: false,
+            mode: HumanMode::default(),
+            looks_on: false,
+            controls: Controls::new(bindings),
+            pad: PadState::default(),
+            is_by_pad: false,
+            shows_help: false,
+            has_lost_pad: false,
+            dragged: None,
+        }
+    }
+
+    /// The same with other keys.
+    #[must_use]
+    pub fn with_bindings(mut self, bindings: Bindings) -> Self {
+        if let Some(menu) = &mut self.menu {
+            menu.bindings = bindings.clone();
+        }
+        self.controls.rebind(bindings);
+        self
+    }
+
+    /// What keys mean.
+    pub fn bindings(&self) -> &Bindings {
+        self.controls.bindings()
+    }
+
+    /// Whether what there is to press is to be shown.
+    pub fn shows_help(&self) -> bool {
+        self.shows_help
+    }
+
+    /// Whether the player holds a gamepad.
+    pub fn is_by_pad(&self) -> bool {
+        self.is_by_pad
     }
 
     /// The menus.
@@ -97,7 +151,8 @@ impl Lobby {
     /// A game has begun.
     pub fn began(&mut self) {
         self.game = Game::Running;
-        (self.is_resuming, self.is_leaving) = (false, false);
+        (self.is_resuming, self.is_leaving, self.has_lost_pad) = (false, false, false);
+        (self.mode, self.looks_on) = (HumanMode::default(), false);
         self.close();
     }
 
@@ -118,46 +173,59 @@ impl Lobby {
     /// Something went wrong, and a menu says so; false if there is none.
     pub fn complain(&mut self, notice: String) -> bool {
         let Some(menu) = &mut self.menu else { return false };
-        menu.notice = Some(notice);
+        menu.notice = Some(Notice::Wrong(notice));
         true
     }
 
-    /// Looks whether time stands still in the game: then the menu of the pause opens, and otherwise
-    /// it is not over a game that goes on.
-    pub fn see(&mut self, is_paused: bool) -> Vec<Order> {
+    /// Looks what the game's hand does. If time stands still, the menu of the pause opens, and
+    /// otherwise it is not over a game that goes on.
+    pub fn see(&mut self, view: &HumanView) -> Vec<Order> {
+        (self.mode, self.looks_on) = (view.mode, view.looks_on);
+        let is_paused = view.mode == HumanMode::Paused;
         self.is_resuming &= is_paused;
-        if !is_paused && self.game == Game::Running {
+        if !is_paused && self.game == Game::Running && self.is_menu_open() {
             self.close();
         }
         let opens = is_paused && self.is_playing() && !self.is_resuming && !self.is_leaving;
         if opens && self.menu.is_some() {
             self.open("pause");
-            return vec![Order::Tell(RawInput::FocusLost)];
+            if let (Some(menu), true) = (&mut self.menu, std::mem::take(&mut self.has_lost_pad)) {
+                menu.notice = Some(Notice::PadLost);
+            }
+            return vec![Order::Tell(HandInput::FocusLost)];
         }
-        Vec::new()
+        self.settle()
     }
 
     /// A device says something; `pointed` is where a free pointer is.
     pub fn hear(&mut self, report: RawInput, pointed: Option<Pointed>) -> Vec<Order> {
-        match report {
-            RawInput::Key { key, down } => self.key(key, down),
-            RawInput::Button { button, down } => self.button(button, down, pointed),
-            RawInput::FocusLost => {
-                self.held.clear();
-                self.told.clear();
-                self.dragged = None;
-                vec![Order::Tell(report)]
+        let mut orders = match report {
+            RawInput::Key { key, down } => {
+                self.is_by_pad = false;
+                self.control(Control::Key(key), down)
             }
-            RawInput::Closed => vec![Order::Tell(report), Order::Quit],
+            RawInput::Button { button, down } => {
+                self.is_by_pad = false;
+                self.button(button, down, pointed)
+            }
+            RawInput::Pad(report) => self.pad(report),
+            RawInput::FocusLost => {
+                self.controls.forget();
+                self.dragged = None;
+                self.move_menu(MenuInput::Never);
+                vec![Order::Tell(HandInput::FocusLost)]
+            }
+            RawInput::Closed => vec![Order::Tell(HandInput::Closed), Order::Quit],
             RawInput::Moved { right, up } => {
                 let factor = self.menu.as_ref().map_or(1.0, |menu| menu.settings.mouse_factor());
                 let (right, up) = (right * factor, up * factor);
-                self.unless_open(RawInput::Moved { right, up })
+                self.unless_open(HandInput::Moved { right, up })
             }
-            RawInput::Wheel { .. } | RawInput::Picked { .. } | RawInput::Aid(_) => {
-                self.unless_open(report)
-            }
-        }
+            RawInput::Wheel { notches } => self.unless_open(HandInput::Wheel { notches }),
+            RawInput::Picked { option } => self.unless_open(HandInput::Picked { option }),
+        };
+        orders.extend(self.settle());
+        orders
     }
 
     /// A free pointer moves.
@@ -176,61 +244,139 @@ impl Lobby {
         }
     }
 
-    fn unless_open(&self, report: RawInput) -> Vec<Order> {
-        if self.is_menu_open() { Vec::new() } else { vec![Order::Tell(report)] }
+    fn unless_open(&self, input: HandInput) -> Vec<Order> {
+        if self.is_menu_open() { Vec::new() } else { vec![Order::Tell(input)] }
     }
 
-    fn key(&mut self, key: Key, down: bool) -> Vec<Order> {
-        // A held key is reported again and again.
-        let is_again = self.held.contains(&key);
-        self.held.retain(|held| *held != key);
-        if down {
-            self.held.push(key);
-        }
-        if self.is_menu_open() {
-            return if down { self.menu_key(key, is_again) } else { Vec::new() };
-        }
-        if self.game == Game::Over {
-            let ends = down && !is_again && matches!(key, Key::Escape | Key::Letter('q'));
-            return if ends { vec![Order::Quit] } else { Vec::new() };
-        }
-        // The game hears of no repeats, and of no release of a key that was pressed in a menu.
-        let was_told = self.told.contains(&key);
-        self.told.retain(|told| *told != key);
-        let is_for_game = if down { !is_again } else { was_told };
-        if down && (was_told || is_for_game) {
-            self.told.push(key);
-        }
-        if is_for_game { vec![Order::Tell(RawInput::Key { key, down })] } else { Vec::new() }
+    /// The profile of now becomes active; the game hears what that ends.
+    fn settle(&mut self) -> Vec<Order> {
+        let is_open = self.is_menu_open();
+        let profile = match (self.game, self.mode) {
+            _ if is_open => Profile::Menu,
+            (Game::None | Game::Over, _) => Profile::Pause,
+            (Game::Running, HumanMode::Paused) if !self.is_resuming => Profile::Pause,
+            (Game::Running, HumanMode::Choosing) => Profile::Choice,
+            (Game::Running, _) if self.looks_on => Profile::Camera,
+            (Game::Running, _) => Profile::Cue,
+        };
+        let ended = self.controls.switch(profile);
+        let told = ended.into_iter().filter(|action| !is_open && is_for_hand(*action));
+        told.map(|action| Order::Tell(HandInput::Act { action, down: false })).collect()
     }
 
-    /// A key goes down in a menu, or is held there: then only lines and values go on.
-    fn menu_key(&mut self, key: Key, is_again: bool) -> Vec<Order> {
-        let is_arrow = matches!(key, Key::Up | Key::Down | Key::Left | Key::Right);
-        if is_again && !is_arrow {
+    /// A key or a button is pressed, or held and repeated, or let go.
+    fn control(&mut self, control: Control, down: bool) -> Vec<Order> {
+        let is_new = down && !self.controls.holds(control);
+        if is_new && self.menu.as_ref().is_some_and(|menu| menu.waits_for_key().is_some()) {
+            // It means nothing else.
+            self.controls.swallow(control);
+            let is_never = control == Control::Key(Key::Escape);
+            let input = if is_never { MenuInput::Never } else { MenuInput::Bind(control) };
+            return self.move_menu(input);
+        }
+        if is_new && self.shows_help && self.is_menu_open() {
+            self.controls.swallow(control);
+            self.shows_help = false;
             return Vec::new();
         }
-        let offers_leave = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
-        match key {
-            Key::Letter('q') if offers_leave => self.obey(Deed::Leave),
-            _ => menu_input(key).map_or_else(Vec::new, |input| self.move_menu(input)),
+        match self.controls.hear(control, down) {
+            Some((action, edge)) => self.act(action, edge),
+            None => Vec::new(),
         }
+    }
+
+    fn act(&mut self, action: Action, edge: Edge) -> Vec<Order> {
+        match (action.controller(), edge) {
+            (Controller::Menu, edge) => self.act_in_menu(action, edge),
+            // Nobody else wants to know that a key is still held.
+            (_, Edge::Repeated) => Vec::new(),
+            (Controller::Leave, Edge::Pressed) if self.is_menu_open() => {
+                let offers = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
+                if offers { self.obey(Deed::Leave) } else { Vec::new() }
+            }
+            (Controller::Leave | Controller::Clock, Edge::Pressed) if self.game == Game::Over => {
+                vec![Order::Quit]
+            }
+            _ if action == Action::Help => {
+                self.shows_help ^= edge == Edge::Pressed;
+                Vec::new()
+            }
+            _ if is_for_hand(action) => {
+                let down = edge == Edge::Pressed;
+                vec![Order::Tell(HandInput::Act { action, down })]
+            }
+            (_, Edge::Pressed) => vec![Order::Do(action)],
+            (_, Edge::Released) => Vec::new(),
+        }
+    }
+
+    /// A held key goes on along lines and values only.
+    fn act_in_menu(&mut self, action: Action, edge: Edge) -> Vec<Order> {
+        let input = match (action, edge) {
+            (_, Edge::Released) => return Vec::new(),
+            (Action::MenuUp, _) => MenuInput::Up,
+            (Action::MenuDown, _) => MenuInput::Down,
+            (Action::MenuLess, _) => MenuInput::Less,
+            (Action::MenuMore, _) => MenuInput::More,
+            (Action::MenuAccept, Edge::Pressed) => MenuInput::Accept,
+            (Action::MenuBack, Edge::Pressed) => MenuInput::Back,
+            _ => return Vec::new(),
+        };
+        self.move_menu(input)
     }
 
     fn button(&mut self, button: Button, down: bool, pointed: Option<Pointed>) -> Vec<Order> {
         if !down {
             self.dragged = None;
         }
-        if !self.is_menu_open() {
-            return vec![Order::Tell(RawInput::Button { button, down })];
+        if !self.is_menu_open() || button != Button::Left {
+            return self.control(Control::Button(button), down);
         }
-        match (button, down, pointed) {
-            (Button::Left, true, Some(Pointed { line, share, .. })) => {
+        if !down {
+            self.controls.hear(Control::Button(button), down);
+            return Vec::new();
+        }
+        self.controls.swallow(Control::Button(button));
+        if std::mem::take(&mut self.shows_help) {
+            return Vec::new();
+        }
+        match pointed {
+            Some(Pointed { line, share, .. }) => {
                 self.dragged = share.map(|_| line);
                 self.move_menu(MenuInput::Press { line, share })
             }
-            _ => Vec::new(),
+            None => self.move_menu(MenuInput::Never),
         }
+    }
+
+    fn pad(&mut self, report: PadInput) -> Vec<Order> {
+        match self.pad.hear(report) {
+            Some(PadMeaning::Button(button, down)) => {
+                self.is_by_pad = true;
+                self.control(Control::Pad(button), down)
+            }
+            Some(PadMeaning::Hand(_)) if self.is_menu_open() => {
+                let pushed = self.pad.pushed();
+                pushed.map_or_else(Vec::new, |action| self.act_in_menu(action, Edge::Pressed))
+            }
+            Some(PadMeaning::Hand(input)) => vec![Order::Tell(input)],
+            Some(PadMeaning::There(true)) => vec![Order::Say("pad_found")],
+            Some(PadMeaning::There(false)) => self.lose_pad(),
+            None => Vec::new(),
+        }
+    }
+
+    /// A gamepad is gone: everything counts as let go, and a game stands still until somebody has
+    /// something else in their hands.
+    fn lose_pad(&mut self) -> Vec<Order> {
+        self.controls.forget();
+        self.is_by_pad = false;
+        self.move_menu(MenuInput::Never);
+        if self.game != Game::Running {
+            return vec![Order::Say("pad_lost")];
+        }
+        self.has_lost_pad = !self.is_menu_open();
+        vec![Order::Tell(HandInput::PadLost), Order::Say("pad_lost")]
     }
 
     /// Moves the menu, and does what it asks for.
@@ -246,20 +392,26 @@ impl Lobby {
             Deed::Resume => {
                 self.close();
                 self.is_resuming = true;
-                let key = Key::Escape;
-                [true, false].map(|down| Order::Tell(RawInput::Key { key, down })).to_vec()
+                let action = Action::Pause;
+                [true, false].map(|down| Order::Tell(HandInput::Act { action, down })).to_vec()
             }
             Deed::Leave if self.game == Game::Running => {
                 self.close();
                 self.is_leaving = true;
-                vec![Order::Tell(RawInput::Closed)]
+                vec![Order::Tell(HandInput::Closed)]
             }
             Deed::Leave => {
                 self.open_main();
                 vec![Order::Clear]
             }
-            Deed::Quit => vec![Order::Tell(RawInput::Closed), Order::Quit],
+            Deed::Quit => vec![Order::Tell(HandInput::Closed), Order::Quit],
             Deed::Changed => vec![Order::Apply],
+            Deed::Bound => {
+                if let Some(menu) = &self.menu {
+                    self.controls.rebind(menu.bindings.clone());
+                }
+                vec![Order::Rebound]
+            }
         }
     }
 
@@ -267,9 +419,9 @@ impl Lobby {
         if let Some(menu) = &mut self.menu {
             menu.open(page);
         }
-        // The game is told that everything is let go.
-        self.told.clear();
         self.dragged = None;
+        // The game is told that everything is let go.
+        self.settle();
     }
 
     fn close(&mut self) {
@@ -277,18 +429,19 @@ impl Lobby {
             menu.close();
         }
         self.dragged = None;
+        self.settle();
     }
 }
 
-/// What a key does in a menu.
-fn menu_input(key: Key) -> Option<MenuInput> {
-    Some(match key {
-        Key::Up => MenuInput::Up,
-        Key::Down | Key::Tab => MenuInput::Down,
-        Key::Left => MenuInput::Less,
-        Key::Right => MenuInput::More,
-        Key::Enter | Key::Space => MenuInput::Accept,
-        Key::Escape | Key::Letter('p') => MenuInput::Back,
-        _ => return None,
-    })
+/// Whether an action is one of the game's hand; the window does the others itself.
+fn is_for_hand(action: Action) -> bool {
+    match action.controller() {
+        Controller::Cue
+        | Controller::Choice
+        | Controller::Eye
+        | Controller::Clock
+        | Controller::Leave => true,
+        Controller::Show => action == Action::Panel,
+        Controller::Sound | Controller::Window | Controller::Menu => false,
+    }
 }

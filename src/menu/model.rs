@@ -1,6 +1,7 @@
 //! Which page is open, which line is meant, and what becomes of it.
 
-use super::{Act, Effect, Item, Page, Pages, Range, Setting, Settings};
+use super::{Act, Effect, Item, Notice, Page, Pages, Range, Setting, Settings};
+use crate::input::{Action, Beside, Bindings, Bound, Control};
 use std::sync::Arc;
 
 /// What moves a menu.
@@ -27,6 +28,10 @@ pub enum MenuInput {
         /// How far along what is set there; none beside it.
         share: Option<f64>,
     },
+    /// This was pressed for the action that waits for a key.
+    Bind(Control),
+    /// No key is wanted any more.
+    Never,
 }
 
 /// What a menu asks of whoever runs the games.
@@ -44,6 +49,8 @@ pub enum Deed {
     Quit,
     /// Something was set.
     Changed,
+    /// A key means something else.
+    Bound,
 }
 
 /// An open page.
@@ -61,26 +68,37 @@ pub struct Menu {
     opened: Vec<Opened>,
     /// What is set.
     pub settings: Settings,
-    /// What went wrong with the last deed, until the next.
-    pub notice: Option<String>,
+    /// What keys mean.
+    pub bindings: Bindings,
+    /// What is to be said of the last deed, until the next.
+    pub notice: Option<Notice>,
+    /// The action that waits for a key, and whether the old ones stay.
+    waits: Option<(Action, Beside)>,
 }
 
 impl Menu {
-    /// Menus with nothing open.
+    /// Menus with nothing open, and the keys that are shipped.
     pub fn new(pages: Pages, settings: Settings) -> Self {
-        Menu { pages: Arc::new(pages), opened: Vec::new(), settings, notice: None }
+        let (pages, opened, bindings) = (Arc::new(pages), Vec::new(), Bindings::shipped());
+        Menu { pages, opened, settings, bindings, notice: None, waits: None }
     }
 
     /// Opens a page in place of whatever is open.
     pub fn open(&mut self, name: &str) {
         self.opened.clear();
+        self.waits = None;
         self.enter(name);
     }
 
     /// Closes all.
     pub fn close(&mut self) {
         self.opened.clear();
-        self.notice = None;
+        (self.notice, self.waits) = (None, None);
+    }
+
+    /// The action that waits for a key.
+    pub fn waits_for_key(&self) -> Option<Action> {
+        self.waits.map(|(action, _)| action)
     }
 
     /// Whether a page is seen.
@@ -104,12 +122,24 @@ impl Menu {
     pub fn is_live(&self, item: &Item) -> bool {
         match item.effect {
             Effect::Sets(setting) => self.settings.is_of_use(setting),
-            Effect::Opens(_) | Effect::Does(_) => true,
+            Effect::Opens(_) | Effect::Does(_) | Effect::Binds(_) => true,
         }
     }
 
     /// Takes one input; nothing happens while no page is open.
     pub fn hear(&mut self, input: MenuInput) -> Option<Deed> {
+        if let Some((action, beside)) = self.waits {
+            // Where the pointer goes meanwhile means nothing.
+            if matches!(input, MenuInput::Over(_)) {
+                return None;
+            }
+            self.waits = None;
+            match input {
+                MenuInput::Bind(control) => return self.bind(action, control, beside),
+                MenuInput::Press { .. } => {}
+                _ => return None,
+            }
+        }
         let (page, focus) = self.seen()?;
         let (count, effect) = (page.items.len(), page.items.get(focus).map(|i| i.effect.clone()));
         match input {
@@ -121,8 +151,23 @@ impl Menu {
             MenuInput::Back => return self.back(),
             MenuInput::Over(line) => self.mean(line),
             MenuInput::Press { line, share } => return self.press(line, share),
+            MenuInput::Bind(_) | MenuInput::Never => {}
         }
         None
+    }
+
+    fn bind(&mut self, action: Action, control: Control, beside: Beside) -> Option<Deed> {
+        match self.bindings.bind(action, control, beside) {
+            Bound::Done { losers } => {
+                let has_lost = !losers.is_empty();
+                self.notice = has_lost.then_some(Notice::Lost { control, losers });
+                Some(Deed::Bound)
+            }
+            Bound::Refused { of } => {
+                self.notice = Some(Notice::Refused { control, of });
+                None
+            }
+        }
     }
 
     fn enter(&mut self, name: &str) {
@@ -173,6 +218,10 @@ impl Menu {
     }
 
     fn turn(&mut self, effect: Option<Effect>, is_more: bool) -> Option<Deed> {
+        if let (Some(Effect::Binds(action)), true) = (&effect, is_more) {
+            (self.notice, self.waits) = (None, Some((*action, Beside::Added)));
+            return None;
+        }
         let Some(Effect::Sets(setting)) = effect else { return None };
         let before = self.settings.place(setting);
         let after = match (Settings::range(setting), is_more) {
@@ -193,6 +242,15 @@ impl Menu {
                 None
             }
             Effect::Sets(_) => self.turn(Some(effect), true),
+            Effect::Binds(action) => {
+                self.waits = Some((action, Beside::Instead));
+                None
+            }
+            Effect::Does(Act::UsualKeys) => {
+                self.bindings = Bindings::shipped();
+                self.notice = Some(Notice::UsualKeys);
+                Some(Deed::Bound)
+            }
             Effect::Does(Act::Back) => self.back(),
             Effect::Does(Act::Start) => Some(Deed::Start),
             Effect::Does(Act::Again) => Some(Deed::Again),

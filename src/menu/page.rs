@@ -1,6 +1,7 @@
 //! Pages of menus, read from files.
 
 use super::Setting;
+use crate::input::Action;
 use crate::shipped;
 use serde::Deserialize;
 
@@ -33,6 +34,8 @@ pub enum Effect {
     Does(Act),
     /// It sets something.
     Sets(Setting),
+    /// It says which keys an action has, and changes them.
+    Binds(Action),
 }
 
 /// What a line can do.
@@ -51,6 +54,8 @@ pub enum Act {
     Leave,
     /// The program ends.
     Quit,
+    /// All keys are as they are shipped.
+    UsualKeys,
 }
 
 /// All pages.
@@ -70,7 +75,8 @@ pub enum PageError {
     },
     /// A line with no effect, or with several.
     #[error(
-        "config/menus/{page}.toml: item {item} ({text:?}) needs one of 'opens', 'does' and 'sets'"
+        "config/menus/{page}.toml: item {item} ({text:?}) needs one of 'opens', 'does', 'sets' and \
+         'binds'"
     )]
     Effects {
         /// Which page.
@@ -92,6 +98,16 @@ pub enum PageError {
         /// Where it may lead.
         known: String,
     },
+    /// A line for an action that there is not.
+    #[error("config/menus/{page}.toml: item {item} binds {name:?}, which is no action")]
+    NoAction {
+        /// Which page.
+        page: String,
+        /// Which line, counted from 1.
+        item: usize,
+        /// What it names.
+        name: String,
+    },
     /// A page without lines: nobody would come out of it.
     #[error("config/menus/{page}.toml: a page needs at least one [[item]]")]
     Empty {
@@ -111,10 +127,13 @@ struct PageForm {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ItemForm {
+    /// A line that binds has its action's.
+    #[serde(default)]
     text: String,
     opens: Option<String>,
     does: Option<Act>,
     sets: Option<Setting>,
+    binds: Option<String>,
 }
 
 impl Pages {
@@ -186,8 +205,20 @@ fn page(name: &str, text: &str) -> Result<Page, PageError> {
 }
 
 fn item(page: &str, number: usize, form: ItemForm) -> Result<Item, PageError> {
-    let ItemForm { text, opens, does, sets } = form;
-    let effects = [opens.map(Effect::Opens), does.map(Effect::Does), sets.map(Effect::Sets)];
+    let ItemForm { text, opens, does, sets, binds } = form;
+    let no_action = |name: &str| {
+        let (page, name) = (page.into(), crate::one_line::one_line(name, 40));
+        PageError::NoAction { page, item: number, name }
+    };
+    let named = |name: &str| Action::named(name).ok_or_else(|| no_action(name));
+    let binds = binds.as_deref().map(named).transpose()?;
+    let text = binds.map_or(text, |action| format!("action_{}", action.name()));
+    let effects = [
+        opens.map(Effect::Opens),
+        does.map(Effect::Does),
+        sets.map(Effect::Sets),
+        binds.map(Effect::Binds),
+    ];
     let mut effects = effects.into_iter().flatten();
     match (effects.next(), effects.next()) {
         (Some(effect), None) => Ok(Item { text, effect }),

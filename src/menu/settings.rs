@@ -42,6 +42,8 @@ pub struct Settings {
     pub full_screen: bool,
     /// What helps to aim.
     pub aim_aid: AimAid,
+    /// A gamepad shakes with contacts.
+    pub rumble: bool,
 }
 
 impl Default for Settings {
@@ -58,6 +60,7 @@ impl Default for Settings {
             mouse_percent: 100,
             full_screen: false,
             aim_aid: AimAid::Line,
+            rumble: true,
         }
     }
 }
@@ -249,11 +252,13 @@ pub enum Setting {
     FullScreen,
     /// What helps to aim.
     AimAid,
+    /// Whether a gamepad shakes with contacts.
+    Rumble,
 }
 
 impl Setting {
     /// All.
-    pub const ALL: [Setting; 11] = [
+    pub const ALL: [Setting; 12] = [
         Setting::Game,
         Setting::Table,
         Setting::PlayerOne,
@@ -265,6 +270,7 @@ impl Setting {
         Setting::MouseSpeed,
         Setting::FullScreen,
         Setting::AimAid,
+        Setting::Rumble,
     ];
 }
 
@@ -325,7 +331,7 @@ impl Settings {
             Setting::Volume => Range::Scale((VOLUME_MAX / VOLUME_STEP).into()),
             // From one step on: a mouse that moves nothing is of no use.
             Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
-            Setting::FullScreen => Range::Choice(2),
+            Setting::FullScreen | Setting::Rumble => Range::Choice(2),
             Setting::AimAid => Range::Choice(AimAid::ALL.len()),
         }
     }
@@ -345,6 +351,7 @@ impl Settings {
                 (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
             }
             Setting::FullScreen => self.full_screen.into(),
+            Setting::Rumble => self.rumble.into(),
             Setting::AimAid => place(&AimAid::ALL, &self.aim_aid),
         }
     }
@@ -365,6 +372,7 @@ impl Settings {
             Setting::Volume => self.volume_percent = u16::from(steps) * VOLUME_STEP,
             Setting::MouseSpeed => self.mouse_percent = (u16::from(steps) + 1) * MOUSE_STEP,
             Setting::FullScreen => self.full_screen = place == 1,
+            Setting::Rumble => self.rumble = place == 1,
             Setting::AimAid => self.aim_aid = AimAid::ALL[place],
         }
     }

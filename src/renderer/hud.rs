@@ -102,7 +102,7 @@ impl Hud {
     pub fn new(board: &Scoreboard, view: &HumanView, texts: &Texts, words: &Words) -> Self {
         let mut hud = Hud {
             seats: seats(board, words),
-            help_hint: if view.help { String::new() } else { words.get("help_hint") },
+            help_hint: words.get("help_hint"),
             ..Hud::default()
         };
         if let Some(verdict) = &board.verdict {
@@ -179,9 +179,6 @@ impl Hud {
             hud.strength = Some(gauge(view.expected_m_s));
         }
         hud.banner = banner(board, view, words);
-        if view.help {
-            hud.help = Some((words.get("help_title"), words.help().to_vec()));
-        }
         hud
     }
 }
@@ -207,8 +204,20 @@ impl Hud {
             (FeltTool::Cue, _) if self.hint.is_empty() => words.get("felt_aim"),
             (FeltTool::Cue, _) => self.hint,
         };
-        let help = self.help.map(|(title, _)| (title, words.help_felt().to_vec()));
-        Hud { felt, hint, help, ..self }
+        Hud { felt, hint, ..self }
+    }
+
+    /// The same for somebody who holds a gamepad.
+    #[must_use]
+    pub fn for_pad(self, view: &HumanView, words: &Words) -> Self {
+        let hint = match view.mode {
+            HumanMode::Choosing => words.get("choose_pad"),
+            HumanMode::Placing if view.placing_allowed => words.get("in_hand_pad"),
+            HumanMode::Aiming => words.get("aim_pad"),
+            HumanMode::Stroking => words.get("stroke_pad"),
+            _ => self.hint,
+        };
+        Hud { hint, help_hint: words.get("help_hint_pad"), ..self }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Words;
 use crate::ids::PlayerId;
 use crate::input::AimAid;
-use crate::menu::{Effect, Item, Menu, Pointed, Range, Seat, Setting, Settings};
+use crate::menu::{Effect, Item, Menu, Notice, Pointed, Range, Seat, Setting, Settings};
 
 /// A page of a menu, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +12,7 @@ pub struct MenuPanel {
     pub title: String,
     /// Its lines, from above.
     pub lines: Vec<MenuLine>,
-    /// Something went wrong.
+    /// Something went wrong, or became otherwise than somebody may think.
     pub notice: Option<String>,
     /// Which keys there are.
     pub hint: String,
@@ -31,6 +31,8 @@ pub struct MenuLine {
     pub is_meant: bool,
     /// It can be chosen.
     pub is_live: bool,
+    /// What is set there is one of several, before and after which there are others.
+    pub is_choice: bool,
 }
 
 impl MenuPanel {
@@ -40,22 +42,54 @@ impl MenuPanel {
         let line = |(n, item): (usize, &Item)| {
             let setting = match item.effect {
                 Effect::Sets(setting) => Some(setting),
-                Effect::Opens(_) | Effect::Does(_) => None,
+                Effect::Opens(_) | Effect::Does(_) | Effect::Binds(_) => None,
             };
             MenuLine {
                 text: words.get(&item.text),
-                value: setting.map(|setting| value(&menu.settings, setting, words)),
+                value: match item.effect {
+                    Effect::Sets(setting) => Some(value(&menu.settings, setting, words)),
+                    Effect::Binds(action) if menu.waits_for_key() == Some(action) => {
+                        Some(words.get("press_key"))
+                    }
+                    Effect::Binds(action) => Some(words.all_keys_of(action, &menu.bindings)),
+                    Effect::Opens(_) | Effect::Does(_) => None,
+                },
                 fill: setting.and_then(|setting| fill(&menu.settings, setting)),
                 is_meant: n == focus,
                 is_live: menu.is_live(item),
+                is_choice: setting.is_some_and(|setting| {
+                    matches!(Settings::range(setting), Range::Choice(_))
+                }),
             }
+        };
+        let binds = page.items.iter().any(|item| matches!(item.effect, Effect::Binds(_)));
+        let hint = match menu.waits_for_key() {
+            Some(action) => words.fill("keys_wait", "action", &words.action(action)),
+            None if binds => words.get("keys_bind"),
+            None => words.get("keys"),
         };
         Some(MenuPanel {
             title: words.get(&format!("title_{}", page.title)),
             lines: page.items.iter().enumerate().map(line).collect(),
-            notice: menu.notice.clone(),
-            hint: words.get("keys"),
+            notice: menu.notice.as_ref().map(|notice| said(notice, words)),
+            hint,
         })
+    }
+}
+
+/// A notice in words.
+fn said(notice: &Notice, words: &Words) -> String {
+    match notice {
+        Notice::Wrong(text) => text.clone(),
+        Notice::Lost { control, losers } => {
+            let names: Vec<String> = losers.iter().map(|action| words.action(*action)).collect();
+            words.fill("key_lost", "key", &words.key(*control)).replace("{actions}", &names.join(", "))
+        }
+        Notice::Refused { control, of } => words
+            .fill("key_refused", "key", &words.key(*control))
+            .replace("{action}", &words.action(*of)),
+        Notice::UsualKeys => words.get("keys_usual"),
+        Notice::PadLost => words.get("pad_lost"),
     }
 }
 
@@ -98,6 +132,7 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
             AimAid::Ways => "aid_ways",
         }),
         Setting::FullScreen => words.get(if settings.full_screen { "on" } else { "off" }),
+        Setting::Rumble => words.get(if settings.rumble { "on" } else { "off" }),
     }
 }
 

@@ -11,7 +11,7 @@ use hapticbillard::ids::BallId;
 use hapticbillard::input::{HumanMode, HumanView};
 use hapticbillard::physics::{Parameters, Snapshot};
 use hapticbillard::renderer::{
-    DrawList, FeltLook, FeltTool, Hud, Overlay, Punctuality, Radii, Scoreboard, Solid, SolidShape,
+    DrawList, FeltLook, FeltTool, HelpOf, Hud, Overlay, Punctuality, Radii, Scoreboard, Solid, SolidShape,
     Words, aimed_by_stylus, force_colour,
 };
 use hapticbillard::rules::{Language, Texts};
@@ -291,10 +291,10 @@ fn whoever_moves_the_hand_with_a_mouse_is_told_how() {
         let hud = Hud::new(&board, view, &Texts::new(Language::English), &words);
         hud.with_felt(None, tool, view, &words)
     };
-    let view = HumanView { help: true, ..HumanView::default() };
-    let touch = hint(Some(FeltTool::Stylus), &view);
+    let touch = hint(Some(FeltTool::Stylus), &HumanView::default());
     assert_eq!(touch.hint, words.get("felt_touch"));
-    assert!(touch.help.unwrap().1.iter().any(|(_, does)| does.contains("moves the hand")));
+    let help = words.help(HelpOf::Felt);
+    assert!(help.iter().any(|(_, does)| does.contains("moves the hand")));
     let stroke = HumanView { mode: HumanMode::Stroking, ..HumanView::default() };
     assert_eq!(hint(Some(FeltTool::Cue), &stroke).hint, words.get("felt_stroke"));
     let placing = HumanView { mode: HumanMode::Placing, ..HumanView::default() };

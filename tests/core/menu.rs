@@ -3,9 +3,13 @@
 /// Whole games from the main menu and back, by one device each.
 mod games;
 
+use crate::input::desk;
+use games::{Device, PadPort, whole_game};
 use glam::DVec2;
 use hapticbillard::ids::PlayerId;
-use hapticbillard::input::{Button, Key, RawInput};
+use hapticbillard::input::{
+    Action, Button, HandInput, HumanMode, HumanView, Key, PadAxis, PadButton, PadInput, RawInput,
+};
 use hapticbillard::menu::{
     Act, Deed, Effect, GameChoice, Lobby, Menu, MenuInput, Order, Pages, Pointed, Range, Seat,
     Setting, Settings, TableChoice, Tongue,
@@ -15,6 +19,12 @@ use hapticbillard::rules::Language;
 use hapticbillard::scene::{PlayerKind, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+
+/// What is seen of a hand that plays, or where time stands still.
+fn paused(is_paused: bool) -> HumanView {
+    let mode = if is_paused { HumanMode::Paused } else { HumanMode::Aiming };
+    HumanView { mode, ..HumanView::default() }
+}
 
 fn menu() -> Menu {
     Menu::new(Pages::shipped().unwrap(), Settings::default())
@@ -229,18 +239,19 @@ fn a_pause_opens_a_menu_and_escape_leads_back_into_the_game() {
     let key = |key| RawInput::Key { key, down: true };
     assert!(lobby.hear(key(Key::Letter('p')), None).is_empty(), "the game hears nothing");
     lobby.began();
-    assert_eq!(lobby.hear(key(Key::Escape), None), [Order::Tell(key(Key::Escape))]);
+    let pause = |down| Order::Tell(HandInput::Act { action: Action::Pause, down });
+    assert_eq!(lobby.hear(key(Key::Escape), None), [pause(true)]);
     let up = RawInput::Key { key: Key::Escape, down: false };
-    assert_eq!(lobby.hear(up, None), [Order::Tell(up)]);
-    assert!(lobby.see(false).is_empty() && lobby.is_playing());
-    assert_eq!(lobby.see(true), [Order::Tell(RawInput::FocusLost)]);
-    assert!(lobby.is_menu_open() && lobby.see(true).is_empty());
+    assert_eq!(lobby.hear(up, None), [pause(false)]);
+    assert!(lobby.see(&paused(false)).is_empty() && lobby.is_playing());
+    assert_eq!(lobby.see(&paused(true)), [Order::Tell(HandInput::FocusLost)]);
+    assert!(lobby.is_menu_open() && lobby.see(&paused(true)).is_empty());
     let back = lobby.hear(key(Key::Escape), None);
-    assert_eq!(back[0], Order::Tell(key(Key::Escape)));
+    assert_eq!(back, [pause(true), pause(false)]);
     // Time still stands until the game has heard it.
-    assert!(lobby.see(true).is_empty() && !lobby.is_menu_open());
-    assert!(lobby.see(false).is_empty() && lobby.is_playing());
-    assert_eq!(lobby.see(true).len(), 1, "the next pause");
+    assert!(lobby.see(&paused(true)).is_empty() && !lobby.is_menu_open());
+    assert!(lobby.see(&paused(false)).is_empty() && lobby.is_playing());
+    assert_eq!(lobby.see(&paused(true)).len(), 1, "the next pause");
 }
 
 #[test]
@@ -271,12 +282,12 @@ fn a_held_key_goes_along_lines_and_chooses_nothing_twice() {
     assert_eq!(lobby.hear(key(Key::Enter, false), None).len(), 1);
 
     // `q` in a pause ends the game, and a menu is never over a game that goes on.
-    lobby.see(true);
+    lobby.see(&paused(true));
     assert!(lobby.is_menu_open());
-    lobby.see(false);
+    lobby.see(&paused(false));
     assert!(lobby.is_playing());
-    lobby.see(true);
-    assert_eq!(lobby.hear(key(Key::Letter('q'), true), None), [Order::Tell(RawInput::Closed)]);
+    lobby.see(&paused(true));
+    assert_eq!(lobby.hear(key(Key::Letter('q'), true), None), [Order::Tell(HandInput::Closed)]);
     assert_eq!(lobby.ended(false), [Order::Clear]);
     assert_eq!(page(&lobby).0, "main");
 }
@@ -300,26 +311,30 @@ fn a_scale_is_pulled_only_while_the_button_is_held() {
     assert_eq!(volume(&lobby), 100);
 }
 
-/// A game that only pauses, goes on and ends.
+/// A game that only pauses, goes on and ends, and knows what is held.
 #[derive(Default)]
 struct Toy {
     is_paused: bool,
     is_over: bool,
-    held: Vec<Button>,
+    held: Vec<Action>,
 }
 
 impl Toy {
-    fn hear(&mut self, report: RawInput) {
-        match report {
-            RawInput::Key { key: Key::Escape | Key::Letter('p'), down: true } => {
-                self.is_paused = !self.is_paused;
+    fn hear(&mut self, input: HandInput) {
+        match input {
+            HandInput::Closed => self.is_over = true,
+            HandInput::FocusLost => self.held.clear(),
+            HandInput::PadLost => {
+                self.held.clear();
+                self.is_paused = true;
             }
-            RawInput::Closed => self.is_over = true,
-            RawInput::FocusLost => self.held.clear(),
-            RawInput::Button { button, down } => {
-                self.held.retain(|held| *held != button);
+            HandInput::Act { action, down } => {
+                let was_held = self.held.contains(&action);
+                self.held.retain(|held| *held != action);
                 if down {
-                    self.held.push(button);
+                    assert!(!was_held, "{action:?} begins twice");
+                    self.held.push(action);
+                    self.is_paused ^= action == Action::Pause;
                 }
             }
             _ => {}
@@ -329,7 +344,7 @@ impl Toy {
 
 #[test]
 fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
-    const KEYS: [Key; 10] = [
+    const KEYS: [Key; 14] = [
         Key::Up,
         Key::Down,
         Key::Left,
@@ -340,7 +355,13 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
         Key::Space,
         Key::Letter('p'),
         Key::Letter('q'),
+        Key::Letter('d'),
+        Key::Function(1),
+        Key::Shift,
+        Key::Letter('1'),
     ];
+    const PAD: [PadButton; 5] =
+        [PadButton::A, PadButton::B, PadButton::Start, PadButton::Down, PadButton::LeftShoulder];
     let mut random = Pcg64Mcg::seed_from_u64(6);
     let mut lobby = Lobby::new(Some(menu()));
     lobby.open_main();
@@ -352,7 +373,7 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
         let pointed = Some(Pointed { line, share: Some(place.y), is_scale: step % 2 == 0 })
             .filter(|_| step % 3 != 0);
         let down = random.random();
-        let mut orders = match random.random_range(0..12) {
+        let mut orders = match random.random_range(0..16) {
             0..6 => {
                 let key = KEYS[random.random_range(0..KEYS.len())];
                 lobby.hear(RawInput::Key { key, down }, pointed)
@@ -363,10 +384,23 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
             }
             8..10 => lobby.point(pointed),
             10 => lobby.hear(RawInput::Moved { right: place.x, up: place.y }, pointed),
+            11..13 => {
+                let button = PAD[random.random_range(0..PAD.len())];
+                lobby.hear(RawInput::Pad(PadInput::Button { button, down }), pointed)
+            }
+            13 => {
+                let axis = PadAxis::ALL[step % PadAxis::ALL.len()];
+                let value = 4.0 * place.x - 2.0;
+                lobby.hear(RawInput::Pad(PadInput::Axis { axis, value }), pointed)
+            }
+            14 if step % 31 == 0 => {
+                let report = if down { PadInput::Connected } else { PadInput::Lost };
+                lobby.hear(RawInput::Pad(report), pointed)
+            }
             _ => lobby.hear(RawInput::FocusLost, pointed),
         };
         if let Some(game) = &toy {
-            orders.extend(lobby.see(game.is_paused));
+            orders.extend(lobby.see(&paused(game.is_paused)));
         }
         for order in orders {
             match order {
@@ -378,7 +412,7 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
                     lobby.began();
                 }
                 Order::Clear => toy = None,
-                Order::Apply => {}
+                Order::Apply | Order::Rebound | Order::Say(_) | Order::Do(_) => {}
                 Order::Quit => {
                     // As if the program were started again.
                     (quits, toy) = (quits + 1, None);
@@ -399,8 +433,145 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
             "step {step}: nothing is open"
         );
         if let Some(game) = toy.as_ref().filter(|_| lobby.is_menu_open() && !lobby.is_over()) {
-            assert!(game.held.is_empty(), "step {step}: a button is stuck");
+            assert!(game.held.is_empty(), "step {step}: {:?} are stuck", game.held);
         }
     }
     assert!(games > 100 && quits > 100, "{games} games, {quits} ends");
+}
+
+/// No gamepad between the player and the window, or one that says at once what is done.
+fn straight() -> PadPort {
+    Box::new(|done| done.to_vec())
+}
+
+#[test]
+fn whole_game_by_mouse_only() {
+    whole_game(Device::Mouse, straight());
+}
+
+#[test]
+fn whole_game_by_keyboard_only() {
+    whole_game(Device::Keyboard, straight());
+}
+
+#[test]
+fn whole_game_by_reports_of_a_gamepad_only() {
+    whole_game(Device::Pad, straight());
+}
+
+#[test]
+fn a_key_is_chosen_on_its_page_and_conflicts_are_said() {
+    let words = Words::of_menus(Language::English);
+    let mut lobby = Lobby::new(Some(menu()));
+    lobby.open_main();
+    let press = |lobby: &mut Lobby, key| {
+        let mut orders = lobby.hear(RawInput::Key { key, down: true }, None);
+        orders.extend(lobby.hear(RawInput::Key { key, down: false }, None));
+        orders
+    };
+    let open = |lobby: &mut Lobby| {
+        lobby.open_main();
+        for page in ["options", "keys", "keys_cue"] {
+            let menu = lobby.menu().unwrap();
+            let opens = |item: &hapticbillard::menu::Item| item.effect == Effect::Opens(page.into());
+            let line = menu.seen().unwrap().0.items.iter().position(opens).unwrap();
+            let at = Some(Pointed { line, share: None, is_scale: false });
+            lobby.hear(RawInput::Button { button: Button::Left, down: true }, at);
+            lobby.hear(RawInput::Button { button: Button::Left, down: false }, at);
+        }
+    };
+    let panel = |lobby: &Lobby| MenuPanel::new(lobby.menu().unwrap(), &words).unwrap();
+    open(&mut lobby);
+    let shown = panel(&lobby);
+    assert_eq!((shown.lines[0].text.as_str(), shown.lines[0].value.as_deref()), ("Turn left", Some("a")));
+    // A key that nobody has: it is so, and nothing is to be said. The key that chose the line is
+    // still held, and repeated.
+    lobby.hear(RawInput::Key { key: Key::Enter, down: true }, None);
+    assert!(lobby.hear(RawInput::Key { key: Key::Enter, down: true }, None).is_empty());
+    assert_eq!(panel(&lobby).lines[0].value.as_deref(), Some("press a key"));
+    lobby.hear(RawInput::Key { key: Key::Enter, down: false }, None);
+    assert_eq!(press(&mut lobby, Key::Letter('j')), [Order::Rebound]);
+    assert_eq!(panel(&lobby).lines[0].value.as_deref(), Some("j"));
+    // One more, taken from another action, which is said.
+    press(&mut lobby, Key::Right);
+    assert_eq!(press(&mut lobby, Key::Letter('b')), [Order::Rebound]);
+    assert_eq!(panel(&lobby).lines[0].value.as_deref(), Some("j, b"));
+    assert_eq!(panel(&lobby).notice.unwrap(), "b is taken from: Next ball.");
+    // What the menus cannot be without is refused; Escape changes nothing.
+    press(&mut lobby, Key::Up);
+    press(&mut lobby, Key::Up);
+    press(&mut lobby, Key::Enter);
+    press(&mut lobby, Key::Escape);
+    assert_eq!(panel(&lobby).title, "Cue", "still on the page");
+    // By mouse and for a side button of it.
+    let at = Some(Pointed { line: 0, share: Some(0.5), is_scale: false });
+    lobby.hear(RawInput::Button { button: Button::Left, down: true }, at);
+    lobby.hear(RawInput::Button { button: Button::Left, down: false }, at);
+    let back = |down| RawInput::Button { button: Button::Back, down };
+    assert_eq!(lobby.hear(back(true), at), [Order::Rebound]);
+    assert!(lobby.hear(back(false), at).is_empty());
+    assert_eq!(panel(&lobby).lines[0].value.as_deref(), Some("hind button"));
+    assert_eq!(lobby.bindings(), &lobby.menu().unwrap().bindings);
+
+    // In the game it is so, and a key that is held while a menu is open is not stuck.
+    lobby.began();
+    lobby.see(&paused(false));
+    let turn = |down| Order::Tell(HandInput::Act { action: Action::TurnLeft, down });
+    assert_eq!(lobby.hear(back(true), None), [turn(true)]);
+    assert_eq!(lobby.see(&paused(true)), [Order::Tell(HandInput::FocusLost)]);
+    assert!(lobby.hear(back(false), None).is_empty());
+    // Everything as at first.
+    open(&mut lobby);
+    press(&mut lobby, Key::Escape);
+    for _ in 0..3 {
+        press(&mut lobby, Key::Down);
+    }
+    assert_eq!(press(&mut lobby, Key::Enter), [Order::Rebound]);
+    assert_eq!(lobby.bindings(), &hapticbillard::input::Bindings::shipped());
+}
+
+#[test]
+fn help_is_shown_in_menus_and_in_games_and_any_key_closes_it_in_a_menu() {
+    let mut lobby = Lobby::new(Some(menu()));
+    lobby.open_main();
+    let press = |lobby: &mut Lobby, key| {
+        lobby.hear(RawInput::Key { key, down: true }, None);
+        lobby.hear(RawInput::Key { key, down: false }, None);
+        lobby.shows_help()
+    };
+    assert!(press(&mut lobby, Key::Function(1)));
+    assert!(!press(&mut lobby, Key::Enter));
+    assert_eq!(seen(lobby.menu().unwrap()).0, "main", "and nothing is chosen");
+    lobby.began();
+    lobby.see(&paused(false));
+    assert!(press(&mut lobby, Key::Function(1)));
+    assert!(press(&mut lobby, Key::Letter('d')), "somebody reads while playing");
+    assert!(!press(&mut lobby, Key::Function(1)));
+}
+
+#[test]
+fn a_gamepad_that_goes_lets_go_of_everything_stops_time_and_is_said() {
+    let mut lobby = Lobby::new(Some(menu()));
+    lobby.began();
+    lobby.see(&paused(false));
+    let fine = RawInput::Pad(PadInput::Button { button: PadButton::LeftShoulder, down: true });
+    let held = Order::Tell(HandInput::Act { action: Action::Fine, down: true });
+    assert_eq!(lobby.hear(fine, None), [held]);
+    assert!(lobby.is_by_pad());
+    let lost = lobby.hear(RawInput::Pad(PadInput::Lost), None);
+    assert_eq!(lost, [Order::Tell(HandInput::PadLost), Order::Say("pad_lost")]);
+    assert!(!lobby.is_by_pad());
+    assert_eq!(lobby.see(&paused(true)), [Order::Tell(HandInput::FocusLost)]);
+    let words = Words::of_menus(Language::English);
+    let panel = MenuPanel::new(lobby.menu().unwrap(), &words).unwrap();
+    assert_eq!((panel.title.as_str(), panel.notice.as_deref()), ("Paused", Some("The gamepad is gone.")));
+    // A stick moves the menu, one line a push.
+    let stick = |value| RawInput::Pad(PadInput::Axis { axis: PadAxis::LeftY, value });
+    for value in [-0.7, -1.0, -0.5, -0.9] {
+        lobby.hear(stick(value), None);
+    }
+    assert_eq!(seen(lobby.menu().unwrap()).1, "options");
+    lobby.hear(stick(0.0), None);
+    lobby.hear(stick(-0.7), None);
+    assert_eq!(seen(lobby.menu().unwrap()).1, "leave");
 }

@@ -10,7 +10,7 @@ use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::{HumanMode, HumanView, STYLUS};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    DrawList, Hud, Playhead, Radii, Remaining, Scoreboard, Shape, Words, ball_look, between,
+    DrawList, HelpOf, Hud, Playhead, Radii, Remaining, Scoreboard, Shape, Words, ball_look, between,
     cue_shape, sphere,
 };
 use hapticbillard::rules::{Language, Texts};
@@ -298,7 +298,14 @@ fn the_strength_and_the_tip_are_shown_while_stroking() {
 fn both_languages_have_the_same_words_and_controls() {
     let [english, german] = Language::ALL.map(Words::new);
     assert!(english.keys().eq(german.keys()));
-    assert_eq!(english.help().len(), german.help().len());
-    assert!(english.help().len() > 8);
-    assert!(english.help().iter().all(|(keys, does)| !keys.is_empty() && !does.is_empty()));
+    for of in [HelpOf::Keys, HelpOf::Pad, HelpOf::Felt, HelpOf::Menu] {
+        let [english, german] = [&english, &german].map(|words| words.help(of));
+        assert_eq!(english.len(), german.len());
+        assert!(english.len() > 8);
+        for (keys, does) in english.into_iter().chain(german) {
+            let both = [keys, does];
+            // Every key in it has a name, and every action a key.
+            assert!(both.iter().all(|text| !text.is_empty() && !text.contains(['{', '–', '_'])));
+        }
+    }
 }

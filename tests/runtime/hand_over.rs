@@ -9,7 +9,7 @@ use hapticbillard::haptic::{
 };
 use hapticbillard::hash::StateHash;
 use hapticbillard::input::feel::STROKE_M_PER_HEIGHT;
-use hapticbillard::input::{Button, HumanMode, HumanView, Key, RawInput, STYLUS};
+use hapticbillard::input::{Action, HandInput, HumanMode, HumanView, STYLUS};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::replay::Recording;
 use hapticbillard::tick::{Delivered, End, FrameSource, Inflow, Outcome, Pace, Participant};
@@ -80,7 +80,7 @@ struct Person {
     table: triple_buffer::Output<Arc<Snapshot>>,
     world: WorldPort,
     signs: Arc<Signs>,
-    raw: flume::Sender<RawInput>,
+    raw: flume::Sender<HandInput>,
     view: triple_buffer::Output<HumanView>,
     is_found: Arc<AtomicBool>,
     paused: u32,
@@ -91,20 +91,20 @@ impl Person {
     /// What the person does at mouse and keyboard.
     fn act(&mut self) {
         let mode = self.view.read().mode;
-        let stroke = |raw: &flume::Sender<RawInput>, m_s: f64| {
-            raw.send(RawInput::Moved { right: 0.0, up: m_s * TICK_S / STROKE_M_PER_HEIGHT })
+        let stroke = |raw: &flume::Sender<HandInput>, m_s: f64| {
+            raw.send(HandInput::Moved { right: 0.0, up: m_s * TICK_S / STROKE_M_PER_HEIGHT })
         };
         let sent = match (mode, self.paused, self.stroked) {
             // Waits a little in the pause, then goes on.
             (HumanMode::Paused, ..) => {
                 self.paused += 1;
                 let down = self.paused == 5;
-                self.raw.send(RawInput::Key { key: Key::Letter('p'), down })
+                self.raw.send(HandInput::Act { action: Action::Pause, down })
             }
             (HumanMode::Aiming, 1.., 0..50) => {
                 self.stroked += 1;
                 let down = self.stroked == 50;
-                self.raw.send(RawInput::Button { button: Button::Left, down })
+                self.raw.send(HandInput::Act { action: Action::Stroke, down })
             }
             (HumanMode::Stroking, _, 50..250) => {
                 self.stroked += 1;

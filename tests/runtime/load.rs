@@ -18,7 +18,7 @@ use hapticbillard::event_manager::{LIMIT, Publication, QueueFull};
 use hapticbillard::events::{Event, Fact, FactKind, Health, Source, Stamp, Stamped, Topic, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{Button, RawInput};
+use hapticbillard::input::{Action, HandInput};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::QueueReading;
 use hapticbillard::scene::{HapticDevice, Overrides};
@@ -321,13 +321,13 @@ fn news_that_nobody_takes_are_dropped_and_counted() {
 fn a_mouse_whose_device_takes_nothing_loses_movements_and_they_are_counted() {
     let opened = open(&HapticDevice::Mouse).unwrap().unwrap();
     let mut mouse = FeltMouse::new(opened.mouse.unwrap());
-    let moved = RawInput::Moved { right: 0.1, up: 0.0 };
+    let moved = HandInput::Moved { right: 0.1, up: 0.0 };
     for _ in 0..1000 {
         mouse.hear(&moved);
     }
     let room = 1000 - mouse.lost();
     assert!(0 < room && room < 1000, "{room}");
-    mouse.hear(&RawInput::Button { button: Button::Left, down: true });
+    mouse.hear(&HandInput::Act { action: Action::Stroke, down: true });
     assert_eq!(mouse.lost(), 1001 - room);
 }
 

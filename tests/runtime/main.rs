@@ -52,6 +52,8 @@ mod logging;
 mod manual;
 /// Who stands in for whom.
 mod mocks;
+/// Gamepads: the driver's thread, and a whole game by a mock device in front of it.
+mod pads;
 /// Devices of the vendor's HD library, in front of a stub of it.
 mod openhaptics;
 /// What enters from outside: pauses, wrong files.

@@ -1,10 +1,11 @@
 //! A game in a window: the ports of both joined.
 
 use super::felt::{Watched, felt};
+use super::kept_keys::KeptKeys;
 use super::kept_settings::Kept;
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{CameraPose, Human, HumanView, LedHuman, RawInput};
+use hapticbillard::input::{Bindings, CameraPose, HandInput, Human, HumanView, LedHuman};
 use hapticbillard::menu::{Menu, Pages, Settings};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{DrawList, Radii, Words, player_names};
@@ -20,7 +21,7 @@ use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{
     DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Telemetry, Watch,
 };
-use hapticbillard_actors::input::{LedHand, WindowHand};
+use hapticbillard_actors::input::{LedHand, WindowHand, gamepads};
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{
     Backdrop, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, WindowSetup, show,
@@ -71,7 +72,8 @@ pub fn play_in_window(
     };
     let menu =
         Menu::new(Pages::shipped().map_err(|error| RunError::Start(error.to_string()))?, settings);
-    let setup = window(&stage, Some(menu), begins);
+    let (bindings, said, kept_keys) = KeptKeys::load();
+    let setup = WindowSetup { keys: (bindings, said), ..window(&stage, Some(menu), begins) };
     let mut house = House {
         args,
         stage,
@@ -80,6 +82,7 @@ pub fn play_in_window(
         recorder: None,
         telemetry: None,
         kept,
+        kept_keys,
         out,
     };
     match show(setup, &mut house) {
@@ -91,7 +94,9 @@ pub fn play_in_window(
 /// Plays a recording back in a window.
 pub fn replay_in_window(stage: &Stage, recording: Arc<Recording>) -> Result<Status, Error> {
     let mut replay = Replay { stage, recording: Some(recording) };
-    match show(window(stage, None, true), &mut replay) {
+    let (bindings, said, _) = KeptKeys::load();
+    let setup = WindowSetup { keys: (bindings, said), ..window(stage, None, true) };
+    match show(setup, &mut replay) {
         Ok(shown) => shown.map(|()| Status::Success),
         Err(NoWindow(why)) => {
             Err(Error::input("replay", format!("no window ({why})"), "add --headless"))
@@ -148,6 +153,8 @@ fn window(stage: &Stage, menu: Option<Menu>, begins: bool) -> WindowSetup {
         language: language(),
         stop: stop_at_interrupt(),
         menu,
+        keys: (Bindings::shipped(), None),
+        pads: gamepads(),
         begins,
     }
 }
@@ -163,6 +170,7 @@ struct House<'a> {
     recorder: Option<DeviceRecorder>,
     telemetry: Option<Telemetry>,
     kept: Kept,
+    kept_keys: KeptKeys,
     out: &'a mut dyn Write,
 }
 
@@ -230,6 +238,10 @@ impl Host for House<'_> {
     fn keep(&mut self, settings: &Settings) {
         self.kept.keep(settings);
     }
+
+    fn keep_keys(&mut self, bindings: &Bindings) {
+        self.kept_keys.keep(bindings);
+    }
 }
 
 /// A recording in a window.
@@ -257,6 +269,8 @@ impl Host for Replay<'_> {
     }
 
     fn keep(&mut self, _: &Settings) {}
+
+    fn keep_keys(&mut self, _: &Bindings) {}
 }
 
 /// A game with all that it is joined to, ready to begin; and who records its device.
@@ -390,9 +404,9 @@ fn tapped(
 struct Spectator {
     recorded: Option<RecordedInput>,
     eye: Human,
-    raw: flume::Receiver<RawInput>,
+    raw: flume::Receiver<HandInput>,
     view: triple_buffer::Input<HumanView>,
-    seen: Vec<RawInput>,
+    seen: Vec<HandInput>,
 }
 
 impl FrameSource for Spectator {
@@ -400,7 +414,7 @@ impl FrameSource for Spectator {
         self.seen.clear();
         self.seen.extend(self.raw.try_iter());
         let own = self.eye.inflow(tick, &self.seen);
-        self.view.write(self.eye.view());
+        self.view.write(HumanView { looks_on: true, ..self.eye.view() });
         let recorded = self.recorded.as_mut().map(|recorded| recorded.inflow(tick));
         let recorded = recorded.unwrap_or_default();
         // What the spectator's hand would publish is not part of the game.

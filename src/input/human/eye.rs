@@ -11,7 +11,6 @@ impl Human {
             camera: self.camera.pose(),
             aim: self.aim,
             strength_m_s: self.strength_m_s,
-            help: self.help,
             is_practice: self.is_practice,
             cue_ball: self.cue_ball(),
             look: self.camera.looking(self.is_bird),

@@ -4,7 +4,7 @@ use super::super::calling::{self, Sight};
 use super::{Human, Stage};
 use crate::events::{Command, Zone};
 use crate::ids::BallId;
-use crate::input::Key;
+use crate::input::Action;
 use crate::input::placing::Placing;
 use glam::DVec2;
 
@@ -25,7 +25,7 @@ impl Human {
     /// Whether the player would rather not wait. Whoever holds the cue has all the time there is.
     pub(super) fn is_hurried(&self) -> bool {
         let waits = matches!(self.stage, Stage::Waiting | Stage::Struck);
-        waits && !self.paused && self.held.has(Key::Letter('f'))
+        waits && !self.paused && self.held.has(Action::Hurry)
     }
 
     /// A ball was put down.
@@ -69,12 +69,12 @@ impl Human {
         })
     }
 
-    /// A key that goes to the next thing: ball in hand, pocket, ball, or kind of call.
-    pub(super) fn step(&mut self, letter: Option<char>) {
-        let backwards = self.held.has(Key::Shift);
+    /// Goes to the next thing: ball in hand, pocket, ball, or kind of call.
+    pub(super) fn step(&mut self, action: Action) {
+        let backwards = self.held.has(Action::Fine);
         match &self.stage {
             _ if self.paused => {}
-            Stage::Placing(placing) if self.is_practice && letter.is_none() => {
+            Stage::Placing(placing) if self.is_practice && action == Action::NextPocket => {
                 let now = placing.ball;
                 let ids: Vec<BallId> = self.seen.balls.iter().map(|ball| ball.id).collect();
                 if let Some(ball) = calling::next(&ids, Some(now), backwards) {
@@ -84,7 +84,7 @@ impl Human {
             Stage::Aiming => {
                 let mut calling = std::mem::take(&mut self.calling);
                 if let Some(sight) = self.call_sight() {
-                    calling.key(letter, backwards, &sight);
+                    calling.change(action, backwards, &sight);
                 }
                 self.calling = calling;
             }

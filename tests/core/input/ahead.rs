@@ -2,7 +2,7 @@
 
 use super::desk::{Desk, shipped};
 use hapticbillard::ids::BallId;
-use hapticbillard::input::{AimAid, HumanMode, Key, RawInput};
+use hapticbillard::input::{AimAid, HandInput, HumanMode, Key};
 
 /// A game with the cue ball put down and aimed at the rack.
 fn aiming(scene: &str) -> Desk {
@@ -26,7 +26,7 @@ fn the_key_goes_through_what_helps_to_aim() {
     desk.key(Key::Letter('x'));
     desk.wait(40);
     assert!(desk.view().ghost.is_none() && desk.view().ways.is_empty(), "nothing");
-    desk.tick(&[RawInput::Aid(AimAid::Ways)]);
+    desk.hear(&[HandInput::Aid(AimAid::Ways)]);
     desk.wait(40);
     assert_eq!(desk.view().ways[0].ball, BallId::CUE);
 }
@@ -34,7 +34,7 @@ fn the_key_goes_through_what_helps_to_aim() {
 #[test]
 fn balls_go_where_it_was_seen_that_they_would() {
     let mut desk = aiming("training");
-    desk.tick(&[RawInput::Aid(AimAid::Ways)]);
+    desk.hear(&[HandInput::Aid(AimAid::Ways)]);
     desk.hold(Key::Letter('a'), 300);
     desk.hold(Key::Down, 900);
     // As hard as the stroke before: the first one tells how hard the second is taken to be.

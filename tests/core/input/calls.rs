@@ -1,6 +1,6 @@
 //! Calls, options and training: what a person says, and when.
 
-use super::desk::{Desk, shipped};
+use super::desk::{Desk, heard, shipped};
 use glam::{DVec2, DVec3};
 use hapticbillard::ball::{BallPlace, BallState, POOL_RADIUS_M};
 use hapticbillard::events::{
@@ -9,6 +9,7 @@ use hapticbillard::events::{
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::feel::AIM_RAD_PER_HEIGHT;
 use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput};
+use hapticbillard::menu::Lobby;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
@@ -25,6 +26,7 @@ fn table() -> Arc<Table> {
 /// A person before three balls; nothing moves.
 struct Seat {
     human: Human,
+    lobby: Lobby,
     seen: Arc<Snapshot>,
     tick: u64,
 }
@@ -38,7 +40,9 @@ impl Seat {
         let seen = Snapshot { balls: lies.map(ball).to_vec(), ..Snapshot::default() };
         let mut human = Human::new(vec![PlayerId::ONE], table());
         human.start(&seen);
-        Seat { human, seen: Arc::new(seen), tick: 1 }
+        let mut lobby = Lobby::new(None);
+        lobby.began();
+        Seat { human, lobby, seen: Arc::new(seen), tick: 1 }
     }
 
     /// A seat in a turn with these calls; the first aim is at the 1.
@@ -60,7 +64,8 @@ impl Seat {
     /// The commands of one tick, but those that only lead the cue.
     fn say(&mut self, raw: &[RawInput]) -> Vec<Command> {
         self.tick += 1;
-        let frame = self.human.inflow(Tick(self.tick), raw).frame;
+        let (told, _) = heard(&mut self.lobby, &self.human.view(), raw);
+        let frame = self.human.inflow(Tick(self.tick), &told).frame;
         let command = |event| match event {
             Event::Command(Command::MoveCue(_) | Command::LiftCue) => None,
             Event::Command(command) => Some(command),

@@ -2,11 +2,13 @@
 
 use glam::DVec2;
 use hapticbillard::cast::Cast;
-use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Verdict};
+use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Turn, Verdict};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
-use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput, StylusWord};
+use hapticbillard::input::{
+    Button, HandInput, Human, HumanMode, HumanView, Key, RawInput, StylusWord,
+};
 use hapticbillard::lockstep::{Lockstep, Setup};
 use hapticbillard::menu::{Lobby, Order};
 use hapticbillard::physics::Snapshot;
@@ -24,8 +26,8 @@ pub const RATES_HZ: [u32; 3] = [60, 125, 1000];
 /// What both sides of the desk share.
 struct Shared {
     human: Human,
-    /// Reports for the next tick.
-    reports: Vec<RawInput>,
+    /// What the hand hears in the next tick.
+    reports: Vec<HandInput>,
     /// What a stylus says in the next tick.
     word: Option<StylusWord>,
     frames: Vec<(Tick, Frame)>,
@@ -95,10 +97,27 @@ pub fn shipped(name: &str) -> Scene {
     Scene::parse(name, hapticbillard::shipped::scene(name).unwrap()).unwrap()
 }
 
+/// What of these reports the game hears, and what else is ordered.
+pub fn heard(
+    lobby: &mut Lobby,
+    view: &HumanView,
+    reports: &[RawInput],
+) -> (Vec<HandInput>, Vec<Order>) {
+    let mut orders = lobby.see(view);
+    orders.extend(reports.iter().flat_map(|report| lobby.hear(*report, None)));
+    let told = |order: &Order| match order {
+        Order::Tell(input) => Some(*input),
+        _ => None,
+    };
+    let heard = orders.iter().filter_map(told).collect();
+    orders.retain(|order| told(order).is_none());
+    (heard, orders)
+}
+
 /// A game with a person.
 pub struct Desk {
-    /// What stands between the devices and the game, where a window is played in.
-    pub lobby: Option<Lobby>,
+    /// What stands between the devices and the game.
+    pub lobby: Lobby,
     /// What it ordered, other than telling the game something.
     pub orders: Vec<Order>,
     game: Lockstep<'static>,
@@ -143,37 +162,26 @@ impl Desk {
         setup.input = Some(Box::new(Hand(shared.clone())));
         setup.observers.push(Box::new(Hand(shared.clone())));
         let game = Lockstep::new(cast, setup).unwrap();
-        Desk { lobby: None, orders: Vec::new(), game, shared, finished: None }
+        let mut lobby = Lobby::new(None);
+        lobby.began();
+        Desk { lobby, orders: Vec::new(), game, shared, finished: None }
     }
 
     /// One tick in which the devices say this.
     pub fn tick(&mut self, reports: &[RawInput]) {
-        let is_paused = self.mode() == HumanMode::Paused;
-        let told = match &mut self.lobby {
-            None => reports.to_vec(),
-            Some(lobby) => {
-                let mut orders = lobby.see(is_paused);
-                orders.extend(reports.iter().flat_map(|report| lobby.hear(*report, None)));
-                self.take_orders(orders)
-            }
-        };
-        self.shared.lock().unwrap().reports.extend(told);
+        let view = self.view();
+        let (told, orders) = heard(&mut self.lobby, &view, reports);
+        self.orders.extend(orders);
+        self.hear(&told);
+    }
+
+    /// One tick in which the hand hears this.
+    pub fn hear(&mut self, told: &[HandInput]) {
+        self.shared.lock().unwrap().reports.extend_from_slice(told);
         let asked = self.shared.lock().unwrap().asked;
         while self.finished.is_none() && self.shared.lock().unwrap().asked == asked {
             self.finished = self.game.step().unwrap();
         }
-    }
-
-    /// Keeps orders for whoever runs the games; what the game is told comes back.
-    fn take_orders(&mut self, orders: Vec<Order>) -> Vec<RawInput> {
-        let mut told = Vec::new();
-        for order in orders {
-            match order {
-                Order::Tell(report) => told.push(report),
-                order => self.orders.push(order),
-            }
-        }
-        told
     }
 
     /// One tick in which a stylus says this.
@@ -218,6 +226,15 @@ impl Desk {
     /// Everything that was delivered so far.
     pub fn heard(&self) -> Vec<Event> {
         self.shared.lock().unwrap().heard.clone()
+    }
+
+    /// The last turn that was called.
+    pub fn turn(&self) -> Option<Arc<Turn>> {
+        let turn = |event| match event {
+            Event::Turn(turn) => Some(turn),
+            _ => None,
+        };
+        self.heard().into_iter().filter_map(turn).next_back()
     }
 
     pub fn facts(&self) -> Vec<Fact> {

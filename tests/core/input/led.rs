@@ -9,7 +9,7 @@ use hapticbillard::event_manager::Publication;
 use hapticbillard::events::{Command, Event, FactKind, Source, Topics};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::{BallId, PlayerId};
-use hapticbillard::input::{Button, Human, HumanMode, Key, Led, LedHuman, RawInput};
+use hapticbillard::input::{Action, HandInput, Human, HumanMode, Led, LedHuman};
 use hapticbillard::lockstep::{Lockstep, Setup};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Pace, Participant};
@@ -21,11 +21,11 @@ const SPEED_M_S: f64 = 2.5;
 
 struct Table {
     led: LedHuman,
-    reports: Vec<RawInput>,
+    reports: Vec<HandInput>,
     /// The tip begins a stroke here, along this.
     stroke: Option<(DVec3, DVec3, Tick)>,
     last: Option<Led>,
-    hand: Vec<RawInput>,
+    hand: Vec<HandInput>,
     begun: u32,
     strikes: u32,
     cue_lifted: u32,
@@ -124,7 +124,7 @@ impl Game {
         Game { game: Lockstep::new(cast, setup).unwrap(), table, now: Tick(0) }
     }
 
-    fn tick(&mut self, reports: &[RawInput]) {
+    fn tick(&mut self, reports: &[HandInput]) {
         self.table.lock().unwrap().reports.extend_from_slice(reports);
         self.game.step().unwrap();
         self.now = self.now.after(1);
@@ -154,10 +154,10 @@ impl Game {
     }
 }
 
-const MOVED: RawInput = RawInput::Moved { right: 0.1, up: 0.05 };
+const MOVED: HandInput = HandInput::Moved { right: 0.1, up: 0.05 };
 
-fn left(down: bool) -> RawInput {
-    RawInput::Button { button: Button::Left, down }
+fn left(down: bool) -> HandInput {
+    HandInput::Act { action: Action::Stroke, down }
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn the_stylus_strikes_in_its_turn_and_the_mouse_is_its_hands() {
     game.table.lock().unwrap().stroke = None;
     // Whoever waits for balls may hurry; whoever aims has time.
     game.wait_until(50, |table| table.seen.is_rolling());
-    game.tick(&[RawInput::Key { key: Key::Letter('f'), down: true }]);
+    game.tick(&[HandInput::Act { action: Action::Hurry, down: true }]);
     assert!(game.table.lock().unwrap().last.as_ref().unwrap().inflow.hurried);
     game.wait_until(90_000, |table| table.begun == 2);
     let table = game.table.lock().unwrap();

@@ -4,7 +4,7 @@ use super::desk::{Desk, free_play, shipped};
 use glam::DVec2;
 use hapticbillard::ai::{Goal, TableView2d, plan_shot};
 use hapticbillard::ball::POOL_RADIUS_M;
-use hapticbillard::events::{Event, Foul, MenuAction, ShotKind, Turn, TurnAfter};
+use hapticbillard::events::{Event, Foul, MenuAction, ShotKind, TurnAfter};
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::PlayerId;
 use hapticbillard::input::feel::PLACING_M_PER_HEIGHT;
@@ -15,15 +15,6 @@ use hapticbillard::tick::{End, Pace};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
-
-/// The last turn that was called.
-pub fn turn(desk: &Desk) -> Option<Arc<Turn>> {
-    let turn = |event| match event {
-        Event::Turn(turn) => Some(turn),
-        _ => None,
-    };
-    desk.heard().into_iter().filter_map(turn).next_back()
-}
 
 #[test]
 fn a_turn_of_free_play_goes_from_aim_to_rest_to_the_next_aim() {
@@ -121,7 +112,7 @@ impl Person {
 
     fn shoot(&mut self, desk: &mut Desk) {
         let view = self.look(desk);
-        let turn = turn(desk).unwrap();
+        let turn = desk.turn().unwrap();
         let zone = turn.ball_in_hand.zone();
         let goal = Goal::of(&turn, &view, zone);
         let cue_ball = desk.cue_ball().position.truncate();
@@ -182,7 +173,7 @@ fn two_people_share_the_mouse() {
     desk.stroke(0.2, 0.3, 125);
     desk.wait_until(30_000, |desk| !desk.verdicts().is_empty());
     desk.wait(3);
-    assert_eq!(turn(&desk).unwrap().player, PlayerId::TWO);
+    assert_eq!(desk.turn().unwrap().player, PlayerId::TWO);
     assert_eq!(desk.mode(), HumanMode::Placing);
 }
 

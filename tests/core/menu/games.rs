@@ -1,7 +1,6 @@
 //! The same whole game by different devices: intents of one player, translated for each.
 
-use crate::input::desk::Desk;
-use crate::input::play::turn;
+use super::desk::Desk;
 use glam::DVec2;
 use hapticbillard::ai::{Goal, TableView2d, plan_shot};
 use hapticbillard::ball::POOL_RADIUS_M;
@@ -9,9 +8,11 @@ use hapticbillard::events::{ShotKind, TurnAfter};
 use hapticbillard::ids::PlayerId;
 use hapticbillard::input::feel::{
     AIM_RAD_PER_S, FINE, KEY_PULL_M_PER_S, KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S,
-    PLACING_M_PER_HEIGHT, PLACING_M_PER_S, PULL_MAX_M,
+    PLACING_M_PER_HEIGHT, PLACING_M_PER_S, PULL_MAX_M, STICK_PLACING, STICK_TURN, TRIGGER_BEGIN,
 };
-use hapticbillard::input::{Button, HumanMode, Key, RawInput};
+use hapticbillard::input::{
+    Button, HandInput, HumanMode, Key, PadAxis, PadButton, PadInput, RawInput, shaped,
+};
 use hapticbillard::menu::{GameChoice, Lobby, Menu, Order, Pages, Pointed, Settings};
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
@@ -24,10 +25,14 @@ use std::sync::Arc;
 
 /// What is at hand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Device {
+pub enum Device {
     Mouse,
     Keyboard,
+    Pad,
 }
+
+/// The way from a gamepad to the window: what is done there becomes what is heard here.
+pub type PadPort = Box<dyn FnMut(&[PadInput]) -> Vec<PadInput>>;
 
 const WINDOW: (f64, f64) = (1280.0, 720.0);
 
@@ -39,10 +44,11 @@ struct Seated {
     desk: Option<Desk>,
     words: Words,
     random: Pcg64Mcg,
+    port: PadPort,
 }
 
 impl Seated {
-    fn new(device: Device) -> Self {
+    fn new(device: Device, port: PadPort) -> Self {
         let mut lobby = Lobby::new(Some(Menu::new(Pages::shipped().unwrap(), Settings::default())));
         lobby.open_main();
         Seated {
@@ -51,12 +57,13 @@ impl Seated {
             desk: None,
             words: Words::of_menus(Language::English),
             random: Pcg64Mcg::seed_from_u64(3),
+            port,
         }
     }
 
     fn lobby(&mut self) -> &mut Lobby {
         match &mut self.desk {
-            Some(desk) => desk.lobby.as_mut().unwrap(),
+            Some(desk) => &mut desk.lobby,
             None => self.lobby.as_mut().unwrap(),
         }
     }
@@ -99,10 +106,46 @@ impl Seated {
         let mut orders = Vec::new();
         for key in keys {
             for down in [true, false] {
-                orders.extend(self.lobby().hear(RawInput::Key { key, down }, None));
+                let reports = match self.device {
+                    Device::Pad => self.pad(&[PadInput::Button { button: button_for(key), down }]),
+                    _ => vec![RawInput::Key { key, down }],
+                };
+                for report in reports {
+                    orders.extend(self.lobby().hear(report, None));
+                }
             }
         }
         orders
+    }
+
+    /// What the window hears when this is done at the gamepad.
+    fn pad(&mut self, done: &[PadInput]) -> Vec<RawInput> {
+        (self.port)(done).into_iter().map(RawInput::Pad).collect()
+    }
+
+    /// One tick in which this is done at the gamepad.
+    fn pad_tick(&mut self, done: &[PadInput]) {
+        let reports = self.pad(done);
+        self.desk.as_mut().unwrap().tick(&reports);
+    }
+
+    fn press(&mut self, button: PadButton) {
+        for down in [true, false] {
+            self.pad_tick(&[PadInput::Button { button, down }]);
+        }
+    }
+
+    /// Holds a stick until it has moved something so far at so much a tick, when it is pushed out
+    /// fully: whole ticks, then one with less.
+    fn push(&mut self, axis: PadAxis, way: f64, a_tick: f64) {
+        let ticks = (way.abs() / a_tick).floor();
+        let rest = way.abs() / a_tick - ticks;
+        if 0.0 < ticks {
+            self.pad_tick(&[PadInput::Axis { axis, value: way.signum() }]);
+            self.desk.as_mut().unwrap().wait(ticks as u64 - 1);
+        }
+        self.pad_tick(&[PadInput::Axis { axis, value: way.signum() * pushed(rest) }]);
+        self.pad_tick(&[PadInput::Axis { axis, value: 0.0 }]);
     }
 
     /// Begins what is set, as a window does when it is told to.
@@ -115,8 +158,8 @@ impl Seated {
         Overrides { seed: Some(11), players, ..Overrides::default() }.apply(&mut scene);
         let table = Arc::new(Table::preset("pool-9ft").unwrap());
         let mut desk = Desk::at(&scene, table, Pace::EveryTick);
-        desk.lobby = Some(lobby);
-        desk.lobby.as_mut().unwrap().began();
+        desk.lobby = lobby;
+        desk.lobby.began();
         self.desk = Some(desk);
     }
 
@@ -143,23 +186,35 @@ impl Seated {
             let (column, row) = (i % 20, i / 20);
             let wanted = DVec2::new(-0.7 - 0.02 * f64::from(row), -0.4 + 0.04 * f64::from(column));
             let by = wanted - self.desk.as_ref().unwrap().view().placing.unwrap();
-            if self.device == Device::Mouse {
-                let by = by / PLACING_M_PER_HEIGHT;
-                self.desk.as_mut().unwrap().moved(by.x, by.y);
-            } else {
-                self.hold_for([Key::Left, Key::Right], by.x, PLACING_M_PER_S * 1e-3);
-                self.hold_for([Key::Down, Key::Up], by.y, PLACING_M_PER_S * 1e-3);
+            match self.device {
+                Device::Mouse => {
+                    let by = by / PLACING_M_PER_HEIGHT;
+                    self.desk.as_mut().unwrap().moved(by.x, by.y);
+                }
+                Device::Keyboard => {
+                    self.hold_for([Key::Left, Key::Right], by.x, PLACING_M_PER_S * 1e-3);
+                    self.hold_for([Key::Down, Key::Up], by.y, PLACING_M_PER_S * 1e-3);
+                }
+                Device::Pad => {
+                    self.push(PadAxis::LeftX, by.x, STICK_PLACING * PLACING_M_PER_S * 1e-3);
+                    self.push(PadAxis::LeftY, by.y, STICK_PLACING * PLACING_M_PER_S * 1e-3);
+                }
             }
             if self.desk.as_ref().unwrap().view().placing_allowed {
                 break;
             }
         }
+        if self.device == Device::Pad {
+            self.press(PadButton::A);
+        }
         let desk = self.desk.as_mut().unwrap();
-        if self.device == Device::Mouse {
-            desk.button(Button::Left, true);
-            desk.button(Button::Left, false);
-        } else {
-            desk.key(Key::Enter);
+        match self.device {
+            Device::Mouse => {
+                desk.button(Button::Left, true);
+                desk.button(Button::Left, false);
+            }
+            Device::Keyboard => desk.key(Key::Enter),
+            Device::Pad => {}
         }
         desk.wait(3);
     }
@@ -168,7 +223,7 @@ impl Seated {
         let desk = self.desk.as_mut().unwrap();
         let bed = table.bed.unwrap();
         let view = TableView2d::of(desk.table(), &bed, &table.pockets, POOL_RADIUS_M);
-        let turn = turn(desk).unwrap();
+        let turn = desk.turn().unwrap();
         let goal = Goal::of(&turn, &view, turn.ball_in_hand.zone());
         let cue_ball = desk.cue_ball().position.truncate();
         let plan = plan_shot(&view, cue_ball, &goal, 0.07, &mut self.random);
@@ -182,15 +237,33 @@ impl Seated {
         let off = azimuth_rad - desk.view().aim.azimuth_rad;
         let whole = std::f64::consts::TAU;
         let off = off - whole * libm::round(off / whole);
-        self.hold_for([Key::Letter('d'), Key::Letter('a')], off, AIM_RAD_PER_S * 1e-3);
+        match self.device {
+            // To the left is negative.
+            Device::Pad => self.push(PadAxis::LeftX, -off, STICK_TURN * AIM_RAD_PER_S * 1e-3),
+            _ => self.hold_for([Key::Letter('d'), Key::Letter('a')], off, AIM_RAD_PER_S * 1e-3),
+        }
         let desk = self.desk.as_mut().unwrap();
         let aimed = desk.view().aim.azimuth_rad - azimuth_rad;
         let aimed = aimed - whole * libm::round(aimed / whole);
         assert!(aimed.abs() < 5e-5, "{aimed}");
         let range = KEY_SPEED_MOST_M_S - KEY_SPEED_LEAST_M_S;
         let share = ((speed_m_s - KEY_SPEED_LEAST_M_S) / range).clamp(0.0, 1.0).sqrt();
+        if self.device == Device::Pad {
+            let axis = PadAxis::RightTrigger;
+            let value = TRIGGER_BEGIN + share.max(0.01) * (1.0 - TRIGGER_BEGIN);
+            self.pad_tick(&[PadInput::Axis { axis, value }]);
+            self.desk.as_mut().unwrap().wait(450);
+            self.pad_tick(&[PadInput::Axis { axis, value: 0.0 }]);
+            return self.strike();
+        }
         let ticks = (share * PULL_MAX_M / KEY_PULL_M_PER_S * 1e3).round().max(1.0);
         desk.hold(Key::Enter, ticks as u64);
+        self.strike();
+    }
+
+    /// The stroke that was let go is as hard as it was shown.
+    fn strike(&mut self) {
+        let desk = self.desk.as_mut().unwrap();
         let meant = desk.view().strength_m_s;
         desk.wait_until(3000, |desk| desk.mode() != HumanMode::Stroking);
         let made = desk.view().strength_m_s;
@@ -198,9 +271,30 @@ impl Seated {
     }
 }
 
+/// The button of a gamepad that does in a menu what a key does.
+fn button_for(key: Key) -> PadButton {
+    match key {
+        Key::Down => PadButton::Down,
+        Key::Left => PadButton::Left,
+        Key::Right => PadButton::Right,
+        _ => PadButton::A,
+    }
+}
+
+/// How far a stick is pushed that says this without its dead zone.
+fn pushed(wanted: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        let is_less = shaped(DVec2::new(middle, 0.0)).x < wanted;
+        (low, high) = if is_less { (middle, high) } else { (low, middle) };
+    }
+    low
+}
+
 /// Plays from the main menu through a game and back to the end of the program.
-fn whole_game(device: Device) {
-    let mut seated = Seated::new(device);
+pub fn whole_game(device: Device, port: PadPort) {
+    let mut seated = Seated::new(device, port);
     assert!(seated.choose("play", None).is_empty());
     assert_eq!(seated.choose("game", Some(0.9)), [Order::Apply]);
     let game = seated.lobby().menu().unwrap().settings.game;
@@ -233,38 +327,31 @@ fn whole_game(device: Device) {
     assert!(own().any(|verdict| verdict.legal && !verdict.pocketed.is_empty()), "a pot");
     assert_eq!(verdicts.last().unwrap().turn, TurnAfter::End);
     assert!(desk.orders.is_empty(), "{:?}", desk.orders);
-    assert!(desk.lobby.as_mut().unwrap().ended(true).is_empty());
+    assert!(desk.lobby.ended(true).is_empty());
     assert_eq!(seated.choose("leave", None), [Order::Clear]);
-    seated.lobby = seated.desk.take().unwrap().lobby;
+    seated.lobby = Some(seated.desk.take().unwrap().lobby);
     let quits = seated.choose("quit", None);
     assert_eq!(quits.last(), Some(&Order::Quit));
 }
 
 fn pause_and_go_on(seated: &mut Seated) {
+    match seated.device {
+        Device::Pad => seated.press(PadButton::Start),
+        _ => seated.desk.as_mut().unwrap().key(Key::Escape),
+    }
     let desk = seated.desk.as_mut().unwrap();
-    desk.key(Key::Escape);
     desk.wait(2);
     assert_eq!(desk.mode(), HumanMode::Paused);
     let orders = seated.choose("resume", None);
-    let told: Vec<RawInput> = orders
+    let told: Vec<HandInput> = orders
         .into_iter()
         .map(|order| match order {
-            Order::Tell(report) => report,
+            Order::Tell(input) => input,
             other => panic!("{other:?}"),
         })
         .collect();
     let desk = seated.desk.as_mut().unwrap();
-    desk.tick(&told);
+    desk.hear(&told);
     desk.wait(3);
     assert_eq!(desk.mode(), HumanMode::Aiming);
-}
-
-#[test]
-fn whole_game_by_mouse_only() {
-    whole_game(Device::Mouse);
-}
-
-#[test]
-fn whole_game_by_keyboard_only() {
-    whole_game(Device::Keyboard);
 }

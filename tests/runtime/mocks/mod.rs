@@ -1,6 +1,7 @@
 //! Who stands in for whom.
 
 pub mod haply_service;
+pub mod pad;
 
 use hapticbillard::ai::{Player, PlayerSettings};
 use hapticbillard::ball::POOL_RADIUS_M;

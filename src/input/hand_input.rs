@@ -1,0 +1,60 @@
+//! What a hand hears: no keys any more, but what they mean.
+
+use super::{Action, AimAid};
+use glam::DVec2;
+
+/// One thing that a player's hand does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum HandInput {
+    /// The mouse moved, in heights of the window.
+    Moved {
+        /// To the right.
+        right: f64,
+        /// Upwards.
+        up: f64,
+    },
+    /// The wheel turned, in notches; away from the hand is positive.
+    Wheel {
+        /// How far.
+        notches: f64,
+    },
+    /// An action begins or ends.
+    Act {
+        /// Which.
+        action: Action,
+        /// It begins.
+        down: bool,
+    },
+    /// A stick of a gamepad is here from now on: right and up, each from −1 to 1, without its dead
+    /// zone.
+    Stick {
+        /// Which.
+        stick: Stick,
+        /// Where.
+        at: DVec2,
+    },
+    /// The trigger that strokes is pressed so far from now on [0 to 1].
+    Trigger(f64),
+    /// A line of the options that are written in the window was clicked, counted from 0.
+    Picked {
+        /// Which.
+        option: usize,
+    },
+    /// So much help is wanted while aiming, from now on.
+    Aid(AimAid),
+    /// Nobody listens to the devices any more: everything held counts as let go.
+    FocusLost,
+    /// A gamepad is gone: everything held counts as let go, and time stands still.
+    PadLost,
+    /// The window was closed.
+    Closed,
+}
+
+/// A stick of a gamepad.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stick {
+    /// Under the left thumb.
+    Left,
+    /// Under the right thumb.
+    Right,
+}
