@@ -31,13 +31,13 @@ pub use device::{FeltMouse, Listed, MouseMove, MousePort, NoDevice, Opened, list
 pub use haply::NoHaply;
 pub use keeper::{Joins, Keeper, keep, keep_and_tell};
 pub use ports::{
-    AllPorts, Balls, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold,
-    Watch, WorldPort,
+    AllPorts, Balls, ControlPorts, Orders, ServoPorts, Signs, StylusPorts, TickTold, Watch,
+    WorldPort,
 };
 pub use recording::{DeviceRecorder, Recorded, load as load_recording};
 pub use rights::{Asked, Core, Grant, Obtained, Refusal, obtain, probe, release};
 pub use seat::{Held, Lay, Plan, Seat, Started};
-pub use stylus::Stylus;
+pub use stylus::{Stylus, frame_of};
 pub use telemetry::{Telemetry, Written};
 pub use thread::{NoServo, ServoThread};
 pub use timing::{OVERRUN_NS, Timing};

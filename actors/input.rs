@@ -9,7 +9,7 @@ mod gamepads;
 mod pad;
 pub use pad::{PadDriver, PadError, PadSource};
 
-use crate::haptic::{FeltMouse, Stylus};
+use crate::haptic::{FeltMouse, Stylus, frame_of};
 use crate::kept::{Kept, Saved, Shared};
 use crate::participant::{Answer, Mail, collect};
 use hapticbillard::events::{Command, Event, Source, Topics};
@@ -176,6 +176,7 @@ impl FrameSource for WindowHand {
         });
         if let Some(stylus) = &self.stylus {
             stylus.turn(turn);
+            stylus.lead(self.core.get().stylus_leads_what());
         }
         self.view.write(self.core.get().view());
         inflow
@@ -229,9 +230,13 @@ impl FrameSource for LedHand {
                 stylus.rest();
             } else {
                 // The samples flow in the turns of others too, so that none of them is old.
-                let moved = stylus.frame(tick);
-                inflow.frame.extend(moved.into_iter().filter(|_| strikes));
+                let word = stylus.word(tick);
+                if let Some(hand) = word.as_ref().and_then(StylusWord::camera) {
+                    self.core.work(|core| core.fly(hand));
+                }
+                inflow.frame.extend(frame_of(word.as_ref()).into_iter().filter(|_| strikes));
             }
+            stylus.lead(self.core.get().stylus_leads_what());
         }
         inflow
     }

@@ -16,6 +16,11 @@ mod hud;
 
 mod keys;
 
+mod stylus;
+pub use stylus::{DeskStylus, StylusPort};
+
+mod wheel;
+
 mod materials;
 
 mod menu;

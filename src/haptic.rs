@@ -67,7 +67,8 @@ pub use recording::{
 };
 pub use rehearsal::Rehearsal;
 pub use report::{
-    ButtonEdge, ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched, WorkspacePose,
+    ButtonEdge, ContactEvent, Counters, SafetyFlags, ServoReport, StylusSample, Touched,
+    WorkspacePose,
 };
 pub use scene::{BALLS_MAX, CueBody, HapticBall, HapticScene, Reach};
 pub use servo::Servo;

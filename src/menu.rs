@@ -9,13 +9,16 @@ mod page;
 pub use page::{Act, Effect, Item, Page, PageError, Pages};
 
 mod settings;
-pub use settings::{GameChoice, Range, Seat, Setting, Settings, TableChoice, Tongue};
+pub use settings::{GameChoice, HapticChoice, Range, Seat, Setting, Settings, TableChoice, Tongue};
 
 mod notice;
 pub use notice::Notice;
 
 mod lobby;
 pub use lobby::{Lobby, Order, Pointed};
+
+mod wheel;
+pub use wheel::{Wheel, WheelError, WheelPage};
 
 mod model;
 pub use model::{Deed, Menu, MenuInput};

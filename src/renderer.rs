@@ -17,6 +17,7 @@ mod scoreboard;
 mod hud;
 
 mod menu_panel;
+mod wheel_panel;
 
 mod words;
 
@@ -47,4 +48,5 @@ pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
 pub use thoughts::{LegendRow, ThoughtRow, ThoughtsPanel, draw_thoughts};
+pub use wheel_panel::{WheelItem, WheelPanel};
 pub use words::{HelpOf, Words};

@@ -40,6 +40,9 @@ pub const MENUS: &[(&str, &str)] = &[
     ("over", include_str!("../config/menus/over.toml")),
 ];
 
+/// The wheel menu, as TOML; see [`crate::menu::WheelPage`].
+pub const WHEEL: &str = include_str!("../config/menus/wheel.toml");
+
 /// The profiles of controllers, by name: the text of `config/profiles/NAME.toml`.
 pub const PROFILES: &[(&str, &str)] = &[
     ("always", include_str!("../config/profiles/always.toml")),

@@ -98,12 +98,20 @@ pub struct Opened {
     pub scheduler: Option<Box<dyn Scheduler>>,
     /// Who knows why it is not ready.
     pub explains: Option<Arc<dyn Explain>>,
+    /// Somebody holds it who can point with it.
+    pub points: bool,
 }
 
 impl Opened {
     /// A device that a thread of ours turns, and that nobody else has to do with.
     pub fn new(device: impl Device + 'static) -> Self {
-        Opened { device: Box::new(device), mouse: None, scheduler: None, explains: None }
+        Opened {
+            device: Box::new(device),
+            mouse: None,
+            scheduler: None,
+            explains: None,
+            points: true,
+        }
     }
 }
 
@@ -131,7 +139,9 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
             let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::MOUSE, guide);
             let (port, moves) = rtrb::RingBuffer::new(MOVES);
             let device = MouseDevice { device, moves };
-            Ok(Some(Opened { mouse: Some(MousePort(port)), ..Opened::new(device) }))
+            let mouse = Some(MousePort(port));
+            // The mouse itself points.
+            Ok(Some(Opened { mouse, points: false, ..Opened::new(device) }))
         }
         HapticDevice::Recorded(file) => {
             let recording = recording::load(Path::new(file))?;
@@ -147,7 +157,8 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
 /// A simulated device in nobody's hand.
 fn simulated() -> Opened {
     let guide = Guide::Script(roaming());
-    Opened::new(SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide))
+    let device = SimulatedDevice::new(DeviceSpec::OMNI, HandModel::GRIP, guide);
+    Opened { points: false, ..Opened::new(device) }
 }
 
 /// The first real device that is there. Who has no vendor's library and no service has no device,
@@ -261,7 +272,9 @@ impl FeltMouse {
             HandInput::Stick { .. }
             | HandInput::Trigger(_)
             | HandInput::Picked { .. }
-            | HandInput::Aid(_) => return,
+            | HandInput::Aid(_)
+            | HandInput::Points { .. }
+            | HandInput::Steering(_) => return,
         };
         self.say(heard);
         let is_let_go = matches!(report, HandInput::Act { action: Action::Stroke, down: false });

@@ -75,12 +75,7 @@ impl Stylus {
 
     /// What enters in `tick` where nobody but the stylus plays.
     pub fn frame(&mut self, tick: Tick) -> Frame {
-        let mut frame = Frame::new();
-        if let Some(StylusWord::Held { path: Some(path), .. }) = self.word(tick) {
-            let event = Event::Command(Command::MoveCue(path));
-            frame.push(Publication { event, delay_ticks: 0, label: None });
-        }
-        frame
+        frame_of(self.word(tick).as_ref())
     }
 
     /// What the stylus says in `tick`, if it says something.
@@ -161,6 +156,16 @@ impl Stylus {
         }
         sample
     }
+}
+
+/// The cue as a stylus leads it.
+pub fn frame_of(word: Option<&StylusWord>) -> Frame {
+    let mut frame = Frame::new();
+    if let Some(StylusWord::Held { path: Some(path), .. }) = word {
+        let event = Event::Command(Command::MoveCue(path.clone()));
+        frame.push(Publication { event, delay_ticks: 0, label: None });
+    }
+    frame
 }
 
 impl FrameSource for Stylus {

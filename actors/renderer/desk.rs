@@ -1,20 +1,24 @@
 //! What happens in a window: devices, the menu, the game, the next picture.
 
+mod pointing;
+
 use super::encoded;
 use super::hud;
 use super::keys::{button, key, notches};
 use super::pointer::Pointer;
 use super::running::Running;
 use super::stage::{BACKGROUND, Stage};
+use super::stylus::DeskStylus;
 use super::window::{Backdrop, GameEnded, Host, WindowSetup};
 use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::{
-    Action, AimAid, Button, Controller, HandInput, HumanMode, PadInput, RawInput,
+    Action, AimAid, Button, Controller, HandInput, HumanMode, PadInput, RawInput, Steering,
+    StylusMouse,
 };
-use hapticbillard::menu::{Lobby, Order, Pointed};
-use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuLayout, MenuPanel, Words};
+use hapticbillard::menu::{HapticChoice, Lobby, Order};
+use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuPanel, WheelPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
 use three_d::{ClearState, CoreError, GUI, RenderTarget, Viewport, WindowedContext, egui};
@@ -70,6 +74,14 @@ pub(super) struct Desk<'a> {
     /// What the window shows now; none if it must be drawn again.
     shown: Option<(DrawList, Hud)>,
     is_focused: bool,
+    /// A stylus that no game has, and what it is as a mouse.
+    stylus: Option<DeskStylus>,
+    stylus_mouse: StylusMouse,
+    /// It was moved later than the mouse.
+    is_by_stylus: bool,
+    /// The device that it is one of.
+    haptic: Option<HapticChoice>,
+    steering: Option<Steering>,
 }
 
 impl<'a> Desk<'a> {
@@ -112,14 +124,22 @@ impl<'a> Desk<'a> {
             said: setup.keys.1.map(|said| (said, now + SAID_LONG)),
             shown: None,
             is_focused: false,
+            stylus: None,
+            stylus_mouse: StylusMouse::default(),
+            is_by_stylus: false,
+            haptic: None,
+            steering: None,
             graphics,
         };
         desk.speak();
+        desk.lobby.resize(desk.size());
+        desk.haptic = desk.lobby.menu().map(|menu| menu.settings.haptic);
         if setup.begins {
             desk.begin(true)?
         } else {
             desk.lobby.open_main();
             desk.set_up_backdrop()?;
+            desk.take_up_stylus();
         }
         Ok(desk)
     }
@@ -157,6 +177,7 @@ impl<'a> Desk<'a> {
                     return;
                 }
                 self.hear_pads(flow);
+                self.hear_stylus(flow);
                 if self.unkept.is_some_and(|since| KEEP_AFTER <= since.elapsed()) {
                     self.keep();
                 }
@@ -177,10 +198,12 @@ impl<'a> Desk<'a> {
             }
             WindowEvent::Resized(size) => {
                 self.graphics.resize(size);
+                self.lobby.resize(self.size());
                 self.shown = None;
             }
             WindowEvent::ScaleFactorChanged { new_inner_size, .. } => {
                 self.graphics.resize(*new_inner_size);
+                self.lobby.resize(self.size());
                 self.shown = None;
             }
             WindowEvent::Focused(is_focused) => {
@@ -190,6 +213,7 @@ impl<'a> Desk<'a> {
                 }
             }
             WindowEvent::CursorMoved { position, .. } => {
+                self.is_by_stylus = false;
                 match self.pointer.at(position, &self.window) {
                     Some(by) => self.moved(by, flow),
                     None => {
@@ -257,6 +281,7 @@ impl<'a> Desk<'a> {
                 }
                 Order::Begin { again } => {
                     if let Err(error) = self.begin(again) {
+                        self.take_up_stylus();
                         self.complain(error, flow);
                     }
                 }
@@ -297,24 +322,8 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// The line of the menu under a free pointer.
-    fn pointed(&self) -> Option<Pointed> {
-        let panel = self.panel()?;
-        let size = self.window.inner_size().cast::<f64>();
-        let layout = MenuLayout::new((size.width, size.height), panel.lines.len());
-        layout.line_at(&panel, self.pointer.place()?)
-    }
-
     fn panel(&self) -> Option<MenuPanel> {
         MenuPanel::new(self.lobby.menu()?, &self.words)
-    }
-
-    /// The line of the options under a free pointer.
-    fn picked(&self) -> Option<usize> {
-        let (x, y) = self.pointer.place()?;
-        let (_, hud) = self.shown.as_ref()?;
-        let size = self.window.inner_size();
-        hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
     }
 
     fn language(&self) -> Language {
@@ -338,7 +347,8 @@ impl<'a> Desk<'a> {
     /// A game begins in place of the one before.
     fn begin(&mut self, again: bool) -> Result<(), Error> {
         self.keep();
-        self.game = None;
+        // The device is the game's.
+        (self.game, self.stylus) = (None, None);
         let language = self.spoken;
         let settings = self.lobby.menu().map(|menu| &menu.settings);
         let prepared = self.host.prepare(settings, language, again)?;
@@ -351,7 +361,7 @@ impl<'a> Desk<'a> {
         let is_shaken = self.pads.is_some();
         let game = Running::begin(prepared, &self.graphics, written, is_shaken, tell)?;
         self.game = Some(game);
-        (self.volume, self.aid) = (None, None);
+        (self.volume, self.aid, self.steering) = (None, None, None);
         self.lobby.began();
         self.apply();
         Ok(())
@@ -377,6 +387,7 @@ impl<'a> Desk<'a> {
         if let Err(error) = finished {
             self.lobby.open_main();
             self.obey(vec![Order::Clear], flow);
+            self.take_up_stylus();
             self.complain(error.into(), flow);
             return;
         }
@@ -386,6 +397,7 @@ impl<'a> Desk<'a> {
             let orders = self.lobby.ended(has_result);
             self.obey(orders, flow);
         }
+        self.take_up_stylus();
         // What went wrong behind the game does not hide how it ended.
         if let Err(error) = told {
             self.complain(error, flow);
@@ -399,6 +411,11 @@ impl<'a> Desk<'a> {
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
         if std::mem::replace(&mut self.is_full, is_full) != is_full {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
+        }
+        let haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
+        // A game that goes on keeps the device that it has.
+        if std::mem::replace(&mut self.haptic, haptic) != haptic && !self.lobby.has_game() {
+            self.take_up_stylus();
         }
         self.apply();
     }
@@ -428,6 +445,10 @@ impl<'a> Desk<'a> {
         if self.aid.replace(aid) != Some(aid) {
             game.outbox.say(HandInput::Aid(aid));
         }
+        let steering = menu.settings.steering;
+        if self.steering.replace(steering) != Some(steering) {
+            game.outbox.say(HandInput::Steering(steering));
+        }
         // Keys turn it too: what is set acts when it is set.
         let volume = menu.settings.volume_factor();
         if let Some(heard) = game.heard.as_ref().filter(|_| self.volume != Some(volume)) {
@@ -452,9 +473,12 @@ impl<'a> Desk<'a> {
         let help = self.help();
         let Some(game) = &mut self.game else {
             let (list, _) = self.backdrop.as_ref()?;
-            return Some((list.clone(), Hud { menu: panel, help, ..Hud::default() }));
+            let pointer = self.pointer_shown();
+            return Some((list.clone(), Hud { menu: panel, help, pointer, ..Hud::default() }));
         };
         let view = game.view();
+        let words = &self.words;
+        let wheel = self.lobby.wheel().map(|wheel| WheelPanel::new(wheel, words));
         let (list, mut hud) = game.seen(&view, self.lobby.is_by_pad(), now_s);
         if help.is_some() {
             (hud.help, hud.help_hint) = (help, String::new());
@@ -469,6 +493,8 @@ impl<'a> Desk<'a> {
             hud.options.clear();
             hud.menu = Some(panel);
         }
+        hud.pointer = if wheel.is_none() { self.pointer_shown() } else { None };
+        hud.wheel = wheel;
         Some((list, hud))
     }
 

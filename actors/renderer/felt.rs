@@ -1,8 +1,10 @@
 //! A haptic device in the window: the newest tick out of its slot, and what is drawn of it.
 
+use super::stylus::StylusPort;
 use crate::haptic::Timing;
+use glam::DVec2;
 use hapticbillard::haptic::ServoReport;
-use hapticbillard::input::{HumanMode, HumanView};
+use hapticbillard::input::{HumanMode, HumanView, StylusMouse, StylusSays};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
     DrawList, FeltEye, FeltLook, FeltTool, Hud, Overlay, Punctuality, Radii, Words, aimed_by_stylus,
@@ -32,6 +34,8 @@ pub struct FeltSetup {
     pub has_turns: bool,
     /// A mouse moves the hand.
     pub by_mouse: bool,
+    /// Somebody holds it who can point with it.
+    pub stylus: Option<StylusPort>,
 }
 
 /// The window's end.
@@ -52,6 +56,14 @@ impl FeltScreen {
         let eye = FeltEye::new(setup.look.tool);
         let leads = setup.leads;
         FeltScreen { setup, overlay, eye, leads, drawn_s: 0.0, asked_s: -1.0 }
+    }
+
+    /// What its stylus says to a window of this size [pixels] since the last time, if it can point.
+    pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
+        let Some(stylus) = &mut self.setup.stylus else { return Vec::new() };
+        self.setup.report.update();
+        let state = self.setup.report.output_buffer().sample.device;
+        stylus.says(&state, mouse, window)
     }
 
     /// Takes what is new at `now_s` on the window's clock.

@@ -42,6 +42,9 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     if let Some(panel) = &hud.meters {
         pen.meters(panel);
     }
+    if let Some(wheel) = &hud.wheel {
+        pen.wheel(wheel);
+    }
     if let Some(menu) = &hud.menu {
         pen.menu(menu);
     }
@@ -49,6 +52,9 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
         pen.help(title, rows);
     } else if let (Some((title, hint)), None) = (&hud.banner, &hud.menu) {
         pen.banner(title, hint);
+    }
+    if let Some([x, y]) = hud.pointer {
+        pen.pointer(pos2(x as f32, y as f32));
     }
 }
 

@@ -9,9 +9,12 @@ use super::stage::Stage;
 use crate::conductor::RunError;
 use crate::event_manager::Sink;
 use crate::meters::Meters;
+use glam::DVec2;
 use hapticbillard::events::{Event, Topic, Topics};
 use hapticbillard::ids::GameKind;
-use hapticbillard::input::{Bindings, HandInput, HumanMode, HumanView, Rumble};
+use hapticbillard::input::{
+    Bindings, HandInput, HumanMode, HumanView, Rumble, StylusMouse, StylusSays,
+};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
     DrawList, HelpOf, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
@@ -160,6 +163,11 @@ impl Running {
     /// before.
     pub fn join(&mut self) -> Option<Result<Finished, RunError>> {
         self.thread.join()
+    }
+
+    /// What a stylus says to a window of this size [pixels] since the last time.
+    pub fn stylus_says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
+        self.felt.as_mut().map_or_else(Vec::new, |felt| felt.says(mouse, window))
     }
 
     /// What the player sees and does.

@@ -1,4 +1,5 @@
-//! A stylus that points at menus: its servo runs without a game, and without any force.
+//! A stylus that points in the window: the ends that a game's servo has for it, and a servo without
+//! a game for the menus, which never pushes.
 
 use crate::haptic::{NoServo, Opened, Plan, Seat, Started, Watch};
 use glam::{DVec2, DVec3};
@@ -6,10 +7,8 @@ use hapticbillard::haptic::{ButtonEdge, DeviceState, Leads, ServoReport};
 use hapticbillard::input::{StylusMouse, StylusSays};
 use std::sync::Arc;
 
-/// The window's ends of a stylus.
+/// The window's end of a stylus that can point.
 pub struct StylusPort {
-    /// The servo's newest tick.
-    pub report: triple_buffer::Output<ServoReport>,
     /// Every press and release.
     pub buttons: rtrb::Consumer<ButtonEdge>,
     /// Its workspace [m].
@@ -17,24 +16,22 @@ pub struct StylusPort {
 }
 
 impl StylusPort {
-    /// What it says to a window of this size [pixels] since the last time.
-    pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
-        let StylusPort { report, buttons, workspace_m } = self;
-        report.update();
-        let state = heard(report.output_buffer());
-        let edges = std::iter::from_fn(|| buttons.pop().ok());
-        mouse.hear(&state, edges, window, *workspace_m)
+    /// What it says, being like this, to a window of this size [pixels] since the last time.
+    pub fn says(
+        &mut self,
+        state: &DeviceState,
+        mouse: &mut StylusMouse,
+        window: DVec2,
+    ) -> Vec<StylusSays> {
+        let edges = std::iter::from_fn(|| self.buttons.pop().ok());
+        mouse.hear(state, edges, window, self.workspace_m)
     }
-}
-
-/// What the device said in a tick.
-fn heard(report: &ServoReport) -> DeviceState {
-    report.sample.device
 }
 
 /// A stylus while no game has it. Dropping it closes the device.
 pub struct DeskStylus {
     port: StylusPort,
+    report: triple_buffer::Output<ServoReport>,
     _seat: Arc<Seat>,
 }
 
@@ -50,11 +47,12 @@ impl DeskStylus {
         watch.picture = Some(picture);
         let Started { seat, .. } = Seat::start_watched(Plan::idle(opened), watch)?;
         seat.signs().lead(Leads::Pointer);
-        Ok(DeskStylus { port: StylusPort { report, buttons, workspace_m }, _seat: seat })
+        Ok(DeskStylus { port: StylusPort { buttons, workspace_m }, report, _seat: seat })
     }
 
     /// What it says to a window of this size [pixels] since the last time.
     pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
-        self.port.says(mouse, window)
+        let state = self.report.read().sample.device;
+        self.port.says(&state, mouse, window)
     }
 }

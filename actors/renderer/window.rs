@@ -3,6 +3,7 @@
 
 use super::desk::Desk;
 use super::running::Prepared;
+use super::stylus::DeskStylus;
 use crate::conductor::RunError;
 use crate::error::Error;
 use crate::input::PadDriver;
@@ -76,6 +77,13 @@ pub trait Host {
     /// # Errors
     /// Balls that do not fit the table.
     fn backdrop(&mut self) -> Result<Backdrop, Error>;
+
+    /// The stylus of the device that is set, for menus while no game has it; none if there is none
+    /// that points.
+    ///
+    /// # Errors
+    /// Why it is not there; the player reads it.
+    fn stylus(&mut self, settings: Option<&Settings>) -> Result<Option<DeskStylus>, Error>;
 
     /// A game has ended.
     ///

@@ -110,14 +110,7 @@ impl Anchor {
         };
         let damping_ns_m = DAMPING_NS_M;
         let spring = Effect::Point { point, stiffness_n_m, damping_ns_m };
-        let faces = [
-            DVec3::X,
-            DVec3::NEG_X,
-            DVec3::Y,
-            DVec3::NEG_Y,
-            DVec3::Z,
-            DVec3::NEG_Z,
-        ];
+        let faces = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
         // The faces of a cube round the place, each of which pushes inwards.
         let face = move |normal: DVec3| Effect::Plane {
             normal,

@@ -86,6 +86,10 @@ actions! {
     Look "look" Eye;
     /// The table from above, or no longer.
     BirdsEye "birds_eye" Eye;
+    /// The eye is led by hand, or goes back to where it was.
+    Camera "camera" Eye;
+    /// Held: the wheel menu.
+    Wheel "wheel" Eye;
     /// Time stands still, or goes on.
     Pause "pause" Clock;
     /// Held: time runs faster while somebody waits.

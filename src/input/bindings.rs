@@ -289,7 +289,8 @@ impl<'a> Read<'a> {
                 name: one_line(name, 40),
                 nearest: nearest(name, Action::ALL.iter().map(|action| action.name())),
             })?;
-            let no_list = || BindingsError::NoList { file: file.into(), line, action: action.name() };
+            let no_list =
+                || BindingsError::NoList { file: file.into(), line, action: action.name() };
             let DeValue::Array(list) = value.get_ref() else { return Err(no_list()) };
             let mut controls = Vec::new();
             for value in list {

@@ -103,9 +103,7 @@ impl Free {
         let is_over = wanted.truncate().abs().cmplt(0.5 * table).all();
         self.eye = match is_over && wanted.z < OVER_BED_M {
             // From above it stays above; from the side it stays there.
-            true if self.eye.truncate().abs().cmplt(0.5 * table).all() => {
-                wanted.with_z(OVER_BED_M)
-            }
+            true if self.eye.truncate().abs().cmplt(0.5 * table).all() => wanted.with_z(OVER_BED_M),
             true => self.eye.with_z(wanted.z),
             false => wanted,
         };

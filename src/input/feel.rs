@@ -54,6 +54,10 @@ pub const PIECE_S: Seconds = 5.0 * TICK_S;
 /// How far the camera turns and rises when the mouse crosses the window's height, while looking
 /// round [rad].
 pub const LOOK_RAD_PER_HEIGHT: f64 = 2.5;
+/// How fast keys move an eye that is led by hand [m/s]: a walk.
+pub const FLY_M_PER_S: f64 = 1.2;
+/// How fast they turn it [rad/s].
+pub const FLY_RAD_PER_S: f64 = 1.0;
 /// What one notch of the wheel makes of the camera's distance.
 pub const ZOOM_PER_NOTCH: f64 = 0.9;
 /// Bounds of the zoom, as a factor of the usual distance.

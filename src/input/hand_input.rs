@@ -1,6 +1,6 @@
 //! What a hand hears: no keys any more, but what they mean.
 
-use super::{Action, AimAid};
+use super::{Action, AimAid, Steering};
 use glam::DVec2;
 
 /// One thing that a player's hand does.
@@ -35,6 +35,15 @@ pub enum HandInput {
     },
     /// The trigger that strokes is pressed so far from now on [0 to 1].
     Trigger(f64),
+    /// A stylus points here in the window, in its heights from its middle.
+    Points {
+        /// To the right.
+        right: f64,
+        /// Upwards.
+        up: f64,
+    },
+    /// So a stylus leads the camera, from now on.
+    Steering(Steering),
     /// A line of the options that are written in the window was clicked, counted from 0.
     Picked {
         /// Which.

@@ -30,6 +30,16 @@ pub enum StylusWord {
     },
 }
 
+impl StylusWord {
+    /// What leads the camera, if it does.
+    pub fn camera(&self) -> Option<&CameraHand> {
+        match self {
+            StylusWord::Held { camera, .. } => camera.as_ref(),
+            StylusWord::Lost => None,
+        }
+    }
+}
+
 /// What changes by a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Change {

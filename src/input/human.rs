@@ -22,7 +22,8 @@
 //! and `push_out` call those, or take that back. It is said when the stroke begins.
 //!
 //! At any time `look` looks round with the mouse or the right stick, and the wheel zooms. Who waits
-//! for rolling balls or for somebody else holds `hurry`, and time runs faster.
+//! for rolling balls or for somebody else holds `hurry`, and time runs faster. `camera` lets the
+//! eye be led by hand: the mouse looks, and what moves the tip moves the eye.
 //!
 //! Where there is a stylus it strikes, and the mouse turns and raises its workspace.
 //!
@@ -32,6 +33,8 @@ mod ahead;
 use ahead::Ahead;
 
 mod eye;
+
+mod fly;
 
 mod keys;
 use keys::KeyStroke;
@@ -46,6 +49,7 @@ pub use stylus::STYLUS;
 
 use super::calling::Calling;
 use super::camera::Camera;
+use super::drive::Steering;
 use super::feel::{
     AIM_RAD_PER_HEIGHT, ELEVATION_RAD_PER_NOTCH, FINE, LOOK_RAD_PER_HEIGHT, OFFSET_PER_HEIGHT,
     PLACING_M_PER_HEIGHT, ZOOM_PER_NOTCH,
@@ -123,6 +127,8 @@ pub struct Human {
     stylus: Option<HandOver>,
     /// The mouse is what moves the stylus.
     is_mouse_felt: bool,
+    /// How it leads the camera.
+    steering: Steering,
 
     held: Held,
     /// A gamepad's sticks, and the trigger that strokes.
@@ -163,6 +169,7 @@ impl Human {
             ahead: Ahead::default(),
             stylus: None,
             is_mouse_felt: false,
+            steering: Steering::default(),
             held: Held::default(),
             sticks: Sticks::default(),
             camera: Camera::new(),
@@ -220,6 +227,7 @@ impl Human {
         if let Some(word) = word {
             self.follow_stylus(tick, word);
         }
+        self.fly_by_keys();
         self.camera.step();
         if !self.paused {
             up += self.key_movement();
@@ -254,6 +262,8 @@ impl Human {
             HandInput::Trigger(pressed) => self.sticks.pull(pressed),
             HandInput::Picked { option } => self.pick(option),
             HandInput::Aid(aid) => self.ahead.aid = aid,
+            HandInput::Points { right, up } => self.pointed_at(DVec2::new(right, up)),
+            HandInput::Steering(steering) => self.steering = steering,
             HandInput::FocusLost => self.forget(),
             HandInput::PadLost => {
                 self.forget();
@@ -278,7 +288,7 @@ impl Human {
     }
 
     fn moved(&mut self, right: f64, upwards: f64, stroke: &mut f64) {
-        if self.held.has(Action::Look) {
+        if self.held.has(Action::Look) || self.camera.is_free() {
             self.camera.look(-right * LOOK_RAD_PER_HEIGHT, -upwards * LOOK_RAD_PER_HEIGHT);
             return;
         }
@@ -326,6 +336,7 @@ impl Human {
             Action::Pause => self.pause_or_resume(),
             Action::Quit => return self.paused,
             Action::BirdsEye => self.is_bird = !self.is_bird,
+            Action::Camera => self.lead_camera_or_cue(),
             Action::TipMiddle if !self.paused => {
                 let middle = |aim: &mut Aim| {
                     (aim.side_offset, aim.height_offset) = (0.0, 0.0);
@@ -392,7 +403,7 @@ impl Human {
 
     /// A hand takes the cue, or puts a ball down.
     fn press(&mut self) {
-        if self.paused {
+        if self.paused || self.camera.is_free() {
             return;
         }
         let is_free = !self.stylus_leads();

@@ -3,8 +3,9 @@
 //! Turns and the ball in hand are those of a [`Human`]; the cue is the stylus'. Where a mouse moves
 //! the hand at the device, it puts the cue ball down before it does.
 
-use super::{Action, HandInput, Human, HumanMode, HumanView, MouseSplit, Reader};
+use super::{Action, CameraHand, HandInput, Human, HumanMode, HumanView, MouseSplit, Reader};
 use crate::events::{Command, Event, Source, Topics};
+use crate::haptic::Leads;
 use crate::hash::StateHash;
 use crate::physics::Snapshot;
 use crate::tick::{Delivered, Inflow, Outcome, Participant};
@@ -70,6 +71,16 @@ impl LedHuman {
         let is_at_ball = self.human.view().mode == HumanMode::Aiming;
         let begins = is_at_ball && std::mem::take(&mut self.is_called);
         Led { inflow, strikes: is_at_ball || !self.plays, begins }
+    }
+
+    /// What the stylus is for now.
+    pub fn stylus_leads_what(&self) -> Leads {
+        self.human.stylus_leads_what()
+    }
+
+    /// One tick in which the stylus leads the camera.
+    pub fn fly(&mut self, hand: &CameraHand) {
+        self.human.fly_by(hand);
     }
 
     /// What the picture shows of the person.

@@ -38,7 +38,12 @@ impl Placing {
 
     /// Moves it; it does not leave the bed.
     pub fn moved(&mut self, by: DVec2, bed: Option<&Bed>, radius_m: f64) {
-        self.at += by;
+        self.hold_at(self.at + by, bed, radius_m);
+    }
+
+    /// Holds it there [m]; it does not leave the bed.
+    pub fn hold_at(&mut self, at: DVec2, bed: Option<&Bed>, radius_m: f64) {
+        self.at = at;
         if let Some(bed) = bed {
             let half = 0.5 * DVec2::new(bed.length_m, bed.width_m) - DVec2::splat(radius_m);
             self.at = self.at.clamp(-half, half);

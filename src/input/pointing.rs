@@ -28,11 +28,7 @@ impl Pointing {
     /// The whole workspace [m] on the whole window [pixels].
     pub fn on(window: DVec2, workspace_m: DVec3) -> Self {
         let scale = window / workspace_m.truncate();
-        Pointing {
-            scale: DVec2::new(scale.x, -scale.y),
-            middle: 0.5 * window,
-            ahead_m: AHEAD_M,
-        }
+        Pointing { scale: DVec2::new(scale.x, -scale.y), middle: 0.5 * window, ahead_m: AHEAD_M }
     }
 
     /// Where a stylus at a place [m] that points along a unit vector points to [pixels].
@@ -174,8 +170,7 @@ mod tests {
     fn one_that_lies_still_says_nothing_and_one_that_is_lost_lets_go() {
         let mut mouse = StylusMouse::default();
         let state = DeviceState::default();
-        let press =
-            |button| Some(ButtonEdge { tick: 1, button, down: true });
+        let press = |button| Some(ButtonEdge { tick: 1, button, down: true });
         assert!(mouse.hear(&state, None, WINDOW, OMNI_M).is_empty());
         assert!(mouse.hear(&state, None, WINDOW, OMNI_M).is_empty());
         let rear = StylusSays::Rear { down: true };

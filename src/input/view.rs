@@ -49,6 +49,18 @@ impl CameraPose {
         CameraPose { eye: self.eye + by, target: self.target + by, ..self }
     }
 
+    /// The point at this height [m] that is seen at a place of the picture, in its heights from its
+    /// middle, to the right and upwards [m]; none above the horizon.
+    pub fn on_level(&self, at: DVec2, height_m: f64) -> Option<DVec2> {
+        let ahead = (self.target - self.eye).normalize_or_zero();
+        let right = ahead.cross(DVec3::Z).normalize_or_zero();
+        let up = right.cross(ahead);
+        let reach = 2.0 * libm::tan(0.5 * self.field_of_view_rad);
+        let way = ahead + (right * at.x + up * at.y) * reach;
+        let far = (height_m - self.eye.z) / way.z;
+        (0.0 < far && far < 100.0).then(|| (self.eye + way * far).truncate())
+    }
+
     /// Where a point of the world [m] is in a picture of this width by height: from its left and
     /// from its top, in shares of both; none if it is behind the eye.
     pub fn place_of(&self, point: DVec3, aspect: f64) -> Option<[f64; 2]> {

@@ -1,10 +1,13 @@
 //! Who hears what the devices say: a menu or the game; and what becomes of either.
 
-use super::{Act, Deed, Menu, MenuInput, Notice};
+mod stylus;
+
+use super::{Act, Deed, Menu, MenuInput, Notice, Wheel, WheelPage};
 use crate::input::{
     Action, Bindings, Button, Control, Controller, Controls, Edge, HandInput, HumanMode, HumanView,
     Key, PadInput, PadMeaning, PadState, Profile, RawInput,
 };
+use glam::DVec2;
 
 /// What a window has to do next, in order.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +78,12 @@ pub struct Lobby {
     has_lost_pad: bool,
     /// The line of a menu whose scale the pointer holds.
     dragged: Option<usize>,
+    /// Size of the window [pixels].
+    window: DVec2,
+    wheel_page: Option<WheelPage>,
+    wheel: Option<Wheel>,
+    /// The game has heard that a stylus clicks, and not yet that it lets go.
+    has_told_click: bool,
 }
 
 impl Lobby {
@@ -94,6 +103,11 @@ impl Lobby {
             shows_help: false,
             has_lost_pad: false,
             dragged: None,
+            window: WINDOW,
+            // A test reads the file.
+            wheel_page: WheelPage::shipped().ok(),
+            wheel: None,
+            has_told_click: false,
         }
     }
 
@@ -135,6 +149,11 @@ impl Lobby {
     /// Whether somebody may be playing: a game goes on and no menu is over it.
     pub fn is_playing(&self) -> bool {
         self.game == Game::Running && !self.is_menu_open()
+    }
+
+    /// Whether a game goes on, or time stands still in it.
+    pub fn has_game(&self) -> bool {
+        self.game == Game::Running
     }
 
     /// Whether the game that is shown is over.
@@ -199,6 +218,9 @@ impl Lobby {
 
     /// A device says something; `pointed` is where a free pointer is.
     pub fn hear(&mut self, report: RawInput, pointed: Option<Pointed>) -> Vec<Order> {
+        if self.turn_wheel(&report) {
+            return Vec::new();
+        }
         let mut orders = match report {
             RawInput::Key { key, down } => {
                 self.is_by_pad = false;
@@ -211,7 +233,7 @@ impl Lobby {
             RawInput::Pad(report) => self.pad(report),
             RawInput::FocusLost => {
                 self.controls.forget();
-                self.dragged = None;
+                (self.dragged, self.wheel) = (None, None);
                 self.move_menu(MenuInput::Never);
                 vec![Order::Tell(HandInput::FocusLost)]
             }
@@ -297,6 +319,8 @@ impl Lobby {
             (Controller::Leave | Controller::Clock, Edge::Pressed) if self.game == Game::Over => {
                 vec![Order::Quit]
             }
+            _ if action == Action::Wheel => self.act_on_wheel(edge),
+            _ if self.wheel.is_some() && edge == Edge::Pressed => self.step_wheel(action),
             _ if action == Action::Help => {
                 self.shows_help ^= edge == Edge::Pressed;
                 Vec::new()
@@ -359,6 +383,7 @@ impl Lobby {
                 let pushed = self.pad.pushed();
                 pushed.map_or_else(Vec::new, |action| self.act_in_menu(action, Edge::Pressed))
             }
+            Some(PadMeaning::Hand(input)) if self.lean_wheel(&input) => Vec::new(),
             Some(PadMeaning::Hand(input)) => vec![Order::Tell(input)],
             Some(PadMeaning::There(true)) => vec![Order::Say("pad_found")],
             Some(PadMeaning::There(false)) => self.lose_pad(),
@@ -419,7 +444,7 @@ impl Lobby {
         if let Some(menu) = &mut self.menu {
             menu.open(page);
         }
-        self.dragged = None;
+        (self.dragged, self.wheel) = (None, None);
         // The game is told that everything is let go.
         self.settle();
     }
@@ -432,6 +457,9 @@ impl Lobby {
         self.settle();
     }
 }
+
+/// Before anybody has said how large a window is [pixels].
+const WINDOW: DVec2 = DVec2::new(1280.0, 720.0);
 
 /// Whether an action is one of the game's hand; the window does the others itself.
 fn is_for_hand(action: Action) -> bool {

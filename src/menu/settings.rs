@@ -1,7 +1,7 @@
 //! What a player sets, and keeps from game to game.
 
 use crate::ids::PlayerId;
-use crate::input::AimAid;
+use crate::input::{AimAid, Steering};
 use crate::one_line::one_line;
 use crate::rules::Language;
 use crate::scene::{Entrant, PlayerKind, STRENGTH_MAX, STRENGTH_USUAL};
@@ -42,6 +42,10 @@ pub struct Settings {
     pub full_screen: bool,
     /// What helps to aim.
     pub aim_aid: AimAid,
+    /// The haptic device that is played with.
+    pub haptic: HapticChoice,
+    /// How its stylus leads the camera.
+    pub steering: Steering,
     /// A gamepad shakes with contacts.
     pub rumble: bool,
 }
@@ -60,6 +64,8 @@ impl Default for Settings {
             mouse_percent: 100,
             full_screen: false,
             aim_aid: AimAid::Line,
+            haptic: HapticChoice::None,
+            steering: Steering::ByPlace,
             rumble: true,
         }
     }
@@ -170,6 +176,46 @@ impl TableChoice {
     }
 }
 
+/// A haptic device.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HapticChoice {
+    /// None.
+    None,
+    /// A simulated one, whose hand the mouse moves.
+    Mouse,
+    /// A Haply Inverse3.
+    Haply,
+    /// One by OpenHaptics.
+    Openhaptics,
+}
+
+impl HapticChoice {
+    /// All, in the order in which they are offered.
+    pub const ALL: [HapticChoice; 4] =
+        [HapticChoice::None, HapticChoice::Mouse, HapticChoice::Haply, HapticChoice::Openhaptics];
+
+    /// The key of its name in the texts.
+    pub fn key(self) -> &'static str {
+        match self {
+            HapticChoice::None => "haptic_none",
+            HapticChoice::Mouse => "haptic_mouse",
+            HapticChoice::Haply => "haptic_haply",
+            HapticChoice::Openhaptics => "haptic_openhaptics",
+        }
+    }
+
+    /// What a scene asks for that is played with it.
+    fn section(self) -> &'static str {
+        match self {
+            HapticChoice::None => "",
+            HapticChoice::Mouse => "\n[haptic]\ndevice = \"mouse\"\n",
+            HapticChoice::Haply => "\n[haptic]\ndevice = \"haply\"\n",
+            HapticChoice::Openhaptics => "\n[haptic]\ndevice = \"openhaptics\"\n",
+        }
+    }
+}
+
 /// Who decides for a player.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -252,13 +298,17 @@ pub enum Setting {
     FullScreen,
     /// What helps to aim.
     AimAid,
+    /// The haptic device.
+    Haptic,
+    /// How its stylus leads the camera.
+    Steering,
     /// Whether a gamepad shakes with contacts.
     Rumble,
 }
 
 impl Setting {
     /// All.
-    pub const ALL: [Setting; 12] = [
+    pub const ALL: [Setting; 14] = [
         Setting::Game,
         Setting::Table,
         Setting::PlayerOne,
@@ -270,6 +320,8 @@ impl Setting {
         Setting::MouseSpeed,
         Setting::FullScreen,
         Setting::AimAid,
+        Setting::Haptic,
+        Setting::Steering,
         Setting::Rumble,
     ];
 }
@@ -333,6 +385,8 @@ impl Settings {
             Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
             Setting::FullScreen | Setting::Rumble => Range::Choice(2),
             Setting::AimAid => Range::Choice(AimAid::ALL.len()),
+            Setting::Haptic => Range::Choice(HapticChoice::ALL.len()),
+            Setting::Steering => Range::Choice(Steering::ALL.len()),
         }
     }
 
@@ -353,6 +407,8 @@ impl Settings {
             Setting::FullScreen => self.full_screen.into(),
             Setting::Rumble => self.rumble.into(),
             Setting::AimAid => place(&AimAid::ALL, &self.aim_aid),
+            Setting::Haptic => place(&HapticChoice::ALL, &self.haptic),
+            Setting::Steering => place(&Steering::ALL, &self.steering),
         }
     }
 
@@ -374,6 +430,8 @@ impl Settings {
             Setting::FullScreen => self.full_screen = place == 1,
             Setting::Rumble => self.rumble = place == 1,
             Setting::AimAid => self.aim_aid = AimAid::ALL[place],
+            Setting::Haptic => self.haptic = HapticChoice::ALL[place],
+            Setting::Steering => self.steering = Steering::ALL[place],
         }
     }
 
@@ -386,15 +444,17 @@ impl Settings {
             Setting::StrengthOne => two && self.player_1 == Seat::Computer,
             Setting::PlayerTwo => two,
             Setting::StrengthTwo => two && self.player_2 == Seat::Computer,
+            Setting::Steering => !matches!(self.haptic, HapticChoice::None | HapticChoice::Mouse),
             _ => true,
         }
     }
 
-    /// The shipped scene of the game that is set, on the table that is set.
+    /// The shipped scene of the game that is set, on the table and with the device that are set.
     pub fn scene_text(&self) -> String {
         let text = shipped::scene(self.game.scene()).unwrap_or_default();
         let usual = format!("preset = {:?}", TableChoice::NineFoot.preset());
-        text.replace(&usual, &format!("preset = {:?}", self.table.preset()))
+        let text = text.replace(&usual, &format!("preset = {:?}", self.table.preset()));
+        text + self.haptic.section()
     }
 
     /// Who plays the game that is set, from player 1 on. Who plays alone is a person.

@@ -106,6 +106,21 @@ impl Wheel {
         self.point(self.centre + away);
     }
 
+    /// A stick leans to the right and down, each from −1 to 1.
+    pub fn lean(&mut self, to: DVec2) {
+        self.point(self.centre + to.clamp_length_max(1.0) * (RING * self.height));
+    }
+
+    /// The next action clockwise is meant, or the one before.
+    pub fn step(&mut self, is_next: bool) {
+        let count = self.page.0.len();
+        self.meant = Some(match (self.meant, is_next) {
+            (None, _) => 0,
+            (Some(meant), true) => (meant + 1) % count,
+            (Some(meant), false) => (meant + count - 1) % count,
+        });
+    }
+
     /// It closes: what is to be done.
     pub fn choice(&self) -> Option<Action> {
         self.meant.and_then(|meant| self.page.0.get(meant).copied())

@@ -6,6 +6,7 @@ use super::meters::MetersPanel;
 use super::overlay::FeltPanel;
 use super::scoreboard::Scoreboard;
 use super::thoughts::ThoughtsPanel;
+use super::wheel_panel::WheelPanel;
 use super::words::Words;
 use crate::cue::OFFSET_LIMIT;
 use crate::events::{BallInHand, Group, PlayerState, ShotKind};
@@ -95,16 +96,17 @@ pub struct Hud {
     pub meters: Option<MetersPanel>,
     /// The menu over everything else.
     pub menu: Option<MenuPanel>,
+    /// The wheel menu.
+    pub wheel: Option<WheelPanel>,
+    /// Where a stylus points [pixels], where that is of use.
+    pub pointer: Option<[f64; 2]>,
 }
 
 impl Hud {
     /// What stands in the window, given the state of the game and what the player does.
     pub fn new(board: &Scoreboard, view: &HumanView, texts: &Texts, words: &Words) -> Self {
-        let mut hud = Hud {
-            seats: seats(board, words),
-            help_hint: words.get("help_hint"),
-            ..Hud::default()
-        };
+        let mut hud =
+            Hud { seats: seats(board, words), help_hint: words.get("help_hint"), ..Hud::default() };
         if let Some(verdict) = &board.verdict {
             hud.message.push(texts.verdict(verdict));
             hud.is_foul = !verdict.fouls.is_empty();

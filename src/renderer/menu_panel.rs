@@ -2,7 +2,7 @@
 
 use super::Words;
 use crate::ids::PlayerId;
-use crate::input::AimAid;
+use crate::input::{AimAid, Steering};
 use crate::menu::{Effect, Item, Menu, Notice, Pointed, Range, Seat, Setting, Settings};
 
 /// A page of a menu, in words.
@@ -57,9 +57,8 @@ impl MenuPanel {
                 fill: setting.and_then(|setting| fill(&menu.settings, setting)),
                 is_meant: n == focus,
                 is_live: menu.is_live(item),
-                is_choice: setting.is_some_and(|setting| {
-                    matches!(Settings::range(setting), Range::Choice(_))
-                }),
+                is_choice: setting
+                    .is_some_and(|setting| matches!(Settings::range(setting), Range::Choice(_))),
             }
         };
         let binds = page.items.iter().any(|item| matches!(item.effect, Effect::Binds(_)));
@@ -83,7 +82,9 @@ fn said(notice: &Notice, words: &Words) -> String {
         Notice::Wrong(text) => text.clone(),
         Notice::Lost { control, losers } => {
             let names: Vec<String> = losers.iter().map(|action| words.action(*action)).collect();
-            words.fill("key_lost", "key", &words.key(*control)).replace("{actions}", &names.join(", "))
+            words
+                .fill("key_lost", "key", &words.key(*control))
+                .replace("{actions}", &names.join(", "))
         }
         Notice::Refused { control, of } => words
             .fill("key_refused", "key", &words.key(*control))
@@ -130,6 +131,11 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
             AimAid::None => "aid_none",
             AimAid::Line => "aid_line",
             AimAid::Ways => "aid_ways",
+        }),
+        Setting::Haptic => words.get(settings.haptic.key()),
+        Setting::Steering => words.get(match settings.steering {
+            Steering::ByPlace => "by_place",
+            Steering::ByPointing => "by_pointing",
         }),
         Setting::FullScreen => words.get(if settings.full_screen { "on" } else { "off" }),
         Setting::Rumble => words.get(if settings.rumble { "on" } else { "off" }),

@@ -5,7 +5,7 @@ use hapticbillard::renderer::{FeltLook, FeltTool};
 use hapticbillard_actors::error::Error;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::haptic::{Plan, Telemetry, Watch};
-use hapticbillard_actors::renderer::FeltSetup;
+use hapticbillard_actors::renderer::{FeltSetup, StylusPort};
 use std::path::Path;
 
 /// A servo before it starts.
@@ -36,6 +36,11 @@ pub fn felt(stage: &Stage, leads: bool, file: Option<&Path>) -> Result<Option<Wa
     watch.picture = Some(picture);
     let telemetry = Telemetry::of(&mut watch, file)?;
     let spec = plan.opened.device.spec();
+    let stylus = plan.opened.points.then(|| {
+        let (told, buttons) = std::mem::take(&mut watch).with_buttons();
+        watch = told;
+        StylusPort { buttons, workspace_m: spec.workspace_m }
+    });
     let tool = if stage.scene.cue.is_some() { FeltTool::Cue } else { FeltTool::Stylus };
     let shown = FeltSetup {
         report,
@@ -46,6 +51,7 @@ pub fn felt(stage: &Stage, leads: bool, file: Option<&Path>) -> Result<Option<Wa
         leads,
         has_turns: !stage.scene.human_players().is_empty(),
         by_mouse: plan.opened.mouse.is_some(),
+        stylus,
     };
     Ok(Some(Watched { plan, watch, shown, telemetry }))
 }

@@ -6,7 +6,7 @@ use super::kept_settings::Kept;
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{Bindings, CameraPose, HandInput, Human, HumanView, LedHuman};
-use hapticbillard::menu::{Menu, Pages, Settings};
+use hapticbillard::menu::{HapticChoice, Menu, Pages, Settings};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{DrawList, Radii, Words, player_names};
 use hapticbillard::replay::{RecordedInput, Recording};
@@ -24,7 +24,7 @@ use hapticbillard_actors::haptic::{
 use hapticbillard_actors::input::{LedHand, WindowHand, gamepads};
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{
-    Backdrop, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, WindowSetup, show,
+    Backdrop, DeskStylus, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, WindowSetup, show,
 };
 use hapticbillard_actors::runtime::{self, Felt, Heard, InputPort, Setup};
 use hapticbillard_actors::sound;
@@ -209,6 +209,21 @@ impl Host for House<'_> {
         backdrop(&self.stage)
     }
 
+    fn stylus(&mut self, settings: Option<&Settings>) -> Result<Option<DeskStylus>, Error> {
+        // Until a game is begun from the menus, the device is that of the command line's scene.
+        let is_set = settings.filter(|settings| settings.haptic != HapticChoice::None);
+        let plan = match is_set {
+            Some(settings) => stage_of(settings, Language::English)?.haptic()?,
+            None => self.stage.haptic()?,
+        };
+        let Some(opened) = plan.map(|plan| plan.opened).filter(|opened| opened.points) else {
+            return Ok(None);
+        };
+        let fix = "end what uses the device, or choose none in the options";
+        let started = DeskStylus::start(opened);
+        started.map(Some).map_err(|error| Error::input("stylus", error.to_string(), fix))
+    }
+
     fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error> {
         // All of it is done, whatever of it fails.
         let device = self.recorder.take().map(DeviceRecorder::finish).transpose();
@@ -258,6 +273,10 @@ impl Host for Replay<'_> {
 
     fn backdrop(&mut self) -> Result<Backdrop, Error> {
         backdrop(self.stage)
+    }
+
+    fn stylus(&mut self, _: Option<&Settings>) -> Result<Option<DeskStylus>, Error> {
+        Ok(None)
     }
 
     fn ended(&mut self, _: &Result<Finished, RunError>) -> Result<(), Error> {

@@ -33,28 +33,36 @@ impl Human {
         self.camera.set_free(leads);
     }
 
-    /// One tick of the eye, if it is led by hand.
-    pub(super) fn fly(&mut self, hand: Option<&CameraHand>) {
-        if self.paused || !self.camera.is_free() {
-            return;
-        }
-        let size = self.table.bed.map_or(DVec2::ZERO, |bed| DVec2::new(bed.length_m, bed.width_m));
-        let keys = self.driven_by_keys();
-        self.camera.drive(&keys, size + RAILS_M);
-        if let Some(hand) = hand {
-            self.camera.drive(&hand.drive(self.steering), size + RAILS_M);
+    /// One tick of an eye that keys lead.
+    pub(super) fn fly_by_keys(&mut self) {
+        let drive = self.driven_by_keys();
+        self.fly(&drive);
+    }
+
+    /// One tick of an eye that the stylus leads.
+    pub(in crate::input) fn fly_by(&mut self, hand: &CameraHand) {
+        let drive = hand.drive(self.steering);
+        self.fly(&drive);
+    }
+
+    fn fly(&mut self, drive: &Drive) {
+        if !self.paused && self.camera.is_free() {
+            let bed = self.table.bed.as_ref();
+            let size = bed.map_or(DVec2::ZERO, |bed| DVec2::new(bed.length_m, bed.width_m));
+            self.camera.drive(drive, size + RAILS_M);
         }
     }
 
-    /// Keys that move the tip move the eye.
+    /// Keys that move the tip, and the left stick, move the eye.
     fn driven_by_keys(&self) -> Drive {
         let held = |more, less| self.held.balance(more, less) * self.fine();
+        let stick = self.sticks.left() * self.fine();
         Drive {
             velocity: FLY_M_PER_S
                 * DVec3::new(
-                    held(Action::TipRight, Action::TipLeft),
+                    held(Action::TipRight, Action::TipLeft) + stick.x,
                     held(Action::Raise, Action::Lower),
-                    held(Action::TipUp, Action::TipDown),
+                    held(Action::TipUp, Action::TipDown) + stick.y,
                 ),
             turn_rad_s: FLY_RAD_PER_S * held(Action::TurnLeft, Action::TurnRight),
             rise_rad_s: 0.0,

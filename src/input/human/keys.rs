@@ -88,7 +88,7 @@ impl KeyStroke {
 impl Human {
     /// What held keys do in one tick.
     pub(super) fn hold_keys(&mut self) {
-        if self.paused {
+        if self.paused || self.camera.is_free() {
             return;
         }
         let fine = self.fine() * TICK_S;

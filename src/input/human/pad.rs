@@ -28,6 +28,11 @@ impl Sticks {
         }
     }
 
+    /// Where the left stick is.
+    pub fn left(&self) -> DVec2 {
+        self.left
+    }
+
     /// The trigger is pressed so far now [0 to 1].
     pub fn pull(&mut self, pressed: f64) {
         self.pressed = pressed;
@@ -38,12 +43,12 @@ impl Human {
     /// What the sticks do in one tick.
     pub(super) fn hold_sticks(&mut self) {
         let Sticks { left, right, .. } = self.sticks;
-        let looks = self.held.has(Action::Look);
+        let looks = self.held.has(Action::Look) || self.camera.is_free();
         if looks && right != DVec2::ZERO {
             let by = right * (LOOK_RAD_PER_S * TICK_S);
             self.camera.look(-by.x, by.y);
         }
-        if self.paused {
+        if self.paused || self.camera.is_free() {
             return;
         }
         let fine = self.fine() * TICK_S;

@@ -79,7 +79,9 @@ impl Human {
     /// Follows the stylus for a tick.
     pub(super) fn follow_stylus(&mut self, tick: Tick, word: &StylusWord) {
         let Some(stylus) = &mut self.stylus else { return };
+        let was_armed = stylus.is_armed();
         let change = stylus.hear(word);
+        let is_begun = stylus.is_armed() && !was_armed;
         if change.is_some() {
             stylus.is_missed = true;
             let (actor, reason) = (STYLUS.into(), GONE.into());
@@ -88,12 +90,19 @@ impl Human {
         if let Some(Change::Drops { armed }) = change {
             self.take_over(tick, armed);
         }
+        if let Some(hand) = word.camera() {
+            self.fly_by(hand);
+        }
         let StylusWord::Held { direction, path: Some(path), .. } = word else { return };
         if self.stylus_leads()
             && !self.paused
             && matches!(self.stage, Stage::Aiming | Stage::Struck)
         {
             self.aim = aim_along(*direction);
+            // A stroke that begins is announced as it is aimed.
+            if is_begun && matches!(self.stage, Stage::Aiming) {
+                self.announce();
+            }
             self.path = Some((**path).clone());
             self.command(Command::MoveCue(path.clone()));
         }

@@ -33,8 +33,9 @@ mod tests {
         assert_eq!(shaped(DVec2::new(f64::INFINITY, 0.0)), DVec2::ZERO);
         assert!((shaped(DVec2::new(0.0, -1.0)) - DVec2::NEG_Y).length() < 1e-12);
         assert!((shaped(DVec2::new(3.0, 4.0)).length() - 1.0).abs() < 1e-12);
-        let lengths: Vec<f64> =
-            (0..=100).map(|n| shaped(DVec2::from_angle(1.0) * f64::from(n) / 100.0).length()).collect();
+        let lengths: Vec<f64> = (0..=100)
+            .map(|n| shaped(DVec2::from_angle(1.0) * f64::from(n) / 100.0).length())
+            .collect();
         assert!(lengths.is_sorted());
         // No step where the dead zone ends.
         assert!(lengths.windows(2).all(|pair| pair[1] - pair[0] < 0.04), "{lengths:?}");

@@ -1,18 +1,11 @@
 //! What a stylus says to menus and games, and the wheel menu.
 
-use super::{Game, Lobby, Order, Pointed};
-use crate::input::{Action, Button, HandInput, HumanMode, RawInput, StylusSays};
-use crate::menu::{Wheel, WheelPage};
+use super::{Edge, Game, Lobby, Order, Pointed};
+use crate::input::{Action, Button, HandInput, HumanMode, RawInput, Stick, StylusSays};
+use crate::menu::Wheel;
 use glam::DVec2;
 
 impl Lobby {
-    /// The same with another wheel; without one there is none.
-    #[must_use]
-    pub fn with_wheel(mut self, page: WheelPage) -> Self {
-        self.wheel_page = Some(page);
-        self
-    }
-
     /// The window is so large from now on [pixels].
     pub fn resize(&mut self, window: DVec2) {
         self.window = window;
@@ -25,10 +18,8 @@ impl Lobby {
 
     /// Whether a stylus points at things in the window now, and a pointer belongs there.
     pub fn is_pointed_at(&self) -> bool {
-        let mode = matches!(
-            self.mode,
-            HumanMode::Placing | HumanMode::Choosing | HumanMode::Paused
-        );
+        let mode =
+            matches!(self.mode, HumanMode::Placing | HumanMode::Choosing | HumanMode::Paused);
         self.is_menu_open() || self.wheel.is_some() || (self.game == Game::Running && mode)
     }
 
@@ -110,10 +101,46 @@ impl Lobby {
         let Some(action) = self.wheel.take().and_then(|wheel| wheel.choice()) else {
             return Vec::new();
         };
-        [super::Edge::Pressed, super::Edge::Released]
+        [Edge::Pressed, Edge::Released]
             .into_iter()
             .flat_map(|edge| self.act(action, edge))
             .collect()
+    }
+
+    /// The key of the wheel: it is open while that is held.
+    pub(super) fn act_on_wheel(&mut self, edge: Edge) -> Vec<Order> {
+        match edge {
+            Edge::Pressed => {
+                self.open_wheel(0.5 * self.window);
+                Vec::new()
+            }
+            Edge::Repeated => Vec::new(),
+            Edge::Released => self.close_wheel(),
+        }
+    }
+
+    /// A key goes down beside an open wheel: those that move the tip go round it.
+    pub(super) fn step_wheel(&mut self, action: Action) -> Vec<Order> {
+        if let Some(wheel) = &mut self.wheel {
+            match action {
+                Action::TipRight | Action::TipDown => wheel.step(true),
+                Action::TipLeft | Action::TipUp => wheel.step(false),
+                _ => {}
+            }
+        }
+        Vec::new()
+    }
+
+    /// The left stick of a gamepad leans towards an action; false if it is for somebody else.
+    pub(super) fn lean_wheel(&mut self, input: &HandInput) -> bool {
+        match (&mut self.wheel, input) {
+            (Some(wheel), HandInput::Stick { stick: Stick::Left, at }) => {
+                wheel.lean(DVec2::new(at.x, -at.y));
+                true
+            }
+            (wheel, HandInput::Stick { .. } | HandInput::Trigger(_)) => wheel.is_some(),
+            _ => false,
+        }
     }
 
     /// What devices say to an open wheel; false if it is for somebody else.

@@ -5,9 +5,7 @@ use glam::DVec2;
 use hapticbillard::events::{Fact, FactKind};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S};
-use hapticbillard::input::{
-    HumanMode, PadAxis, PadButton, PadInput, PadQueue, RawInput, Rumble,
-};
+use hapticbillard::input::{HumanMode, PadAxis, PadButton, PadInput, PadQueue, RawInput, Rumble};
 
 fn axis(axis: PadAxis, value: f64) -> RawInput {
     RawInput::Pad(PadInput::Axis { axis, value })
@@ -38,7 +36,10 @@ fn a_trigger_strokes_as_hard_as_it_was_held() {
         for back_ms in [1, 30, 80] {
             let (shown, made) = stroke(pressed, back_ms);
             let off = (made - shown).abs();
-            assert!(off < 0.07 * shown + 0.02, "{pressed} in {back_ms} ms: {made}, not {shown} m/s");
+            assert!(
+                off < 0.07 * shown + 0.02,
+                "{pressed} in {back_ms} ms: {made}, not {shown} m/s"
+            );
             speeds.push(made);
         }
     }
@@ -83,8 +84,7 @@ fn sticks_turn_raise_and_shift_finely_with_a_shoulder() {
     desk.tick(&[axis(PadAxis::LeftX, 0.05)]);
     let coarse = aim(&desk).azimuth_rad - before.azimuth_rad;
     assert!((coarse - 0.12).abs() < 1e-9, "a tenth of a second at 1.2 rad/s: {coarse}");
-    let shoulder =
-        |down| RawInput::Pad(PadInput::Button { button: PadButton::LeftShoulder, down });
+    let shoulder = |down| RawInput::Pad(PadInput::Button { button: PadButton::LeftShoulder, down });
     desk.tick(&[shoulder(true), axis(PadAxis::LeftX, -1.0)]);
     desk.wait(99);
     desk.tick(&[shoulder(false), axis(PadAxis::LeftX, 0.0)]);

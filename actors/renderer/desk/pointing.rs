@@ -1,0 +1,77 @@
+//! What points at things in the window: the mouse, or a stylus.
+
+use super::super::hud;
+use super::Desk;
+use glam::DVec2;
+use hapticbillard::menu::Pointed;
+use hapticbillard::renderer::MenuLayout;
+use winit::event_loop::ControlFlow;
+
+impl Desk<'_> {
+    /// Size of the window [pixels].
+    pub(super) fn size(&self) -> DVec2 {
+        let size = self.window.inner_size();
+        DVec2::new(size.width.max(1).into(), size.height.max(1).into())
+    }
+
+    /// A stylus has said something.
+    pub(super) fn hear_stylus(&mut self, flow: &mut ControlFlow) {
+        let window = self.size();
+        let mouse = &mut self.stylus_mouse;
+        let said = match (&mut self.stylus, &mut self.game) {
+            (Some(stylus), _) => stylus.says(mouse, window),
+            (None, Some(game)) => game.stylus_says(mouse, window),
+            (None, None) => return,
+        };
+        for said in said {
+            self.is_by_stylus = true;
+            let place = self.stylus_mouse.place().unwrap_or(0.5 * window);
+            let (pointed, picked) = (self.pointed(), self.picked());
+            let orders = self.lobby.hear_stylus(said, place, pointed, picked);
+            self.obey(orders, flow);
+        }
+    }
+
+    /// Menus hear the stylus of the device that is set, while no game has it.
+    pub(super) fn take_up_stylus(&mut self) {
+        self.stylus = None;
+        let settings = self.lobby.menu().map(|menu| &menu.settings);
+        match self.host.stylus(settings) {
+            Ok(stylus) => self.stylus = stylus,
+            Err(error) => {
+                tracing::warn!("{error}");
+                self.lobby.complain(error.to_string());
+            }
+        }
+    }
+
+    /// Where whatever was moved last points [pixels], unless it belongs to a game.
+    fn place(&self) -> Option<(f64, f64)> {
+        match self.stylus_mouse.place().filter(|_| self.is_by_stylus) {
+            Some(place) => Some((place.x, place.y)),
+            None => self.pointer.place(),
+        }
+    }
+
+    /// The same, where the window shows it: the mouse has an arrow of its own.
+    pub(super) fn pointer_shown(&self) -> Option<[f64; 2]> {
+        let is_shown = self.is_by_stylus && self.lobby.is_pointed_at();
+        self.stylus_mouse.place().filter(|_| is_shown).map(|place| place.to_array())
+    }
+
+    /// The line of the menu under a free pointer.
+    pub(super) fn pointed(&self) -> Option<Pointed> {
+        let panel = self.panel()?;
+        let size = self.window.inner_size().cast::<f64>();
+        let layout = MenuLayout::new((size.width, size.height), panel.lines.len());
+        layout.line_at(&panel, self.place()?)
+    }
+
+    /// The line of the options under a free pointer.
+    pub(super) fn picked(&self) -> Option<usize> {
+        let (x, y) = self.place()?;
+        let (_, hud) = self.shown.as_ref()?;
+        let size = self.window.inner_size();
+        hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
+    }
+}
