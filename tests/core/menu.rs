@@ -1,7 +1,11 @@
 //! Menus: pages, focus, settings, words, places; who hears a device; whole games.
 
+/// A whole game by a stylus alone.
+mod by_stylus;
 /// Whole games from the main menu and back, by one device each.
 mod games;
+/// A simulated hand at a simulated device.
+mod stylus_hand;
 
 use crate::input::desk;
 use games::{Device, PadPort, whole_game};

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use hapticbillard::cast::Cast;
 use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Turn, Verdict};
+use hapticbillard::haptic::Leads;
 use hapticbillard::hash::StateHash;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
@@ -188,6 +189,17 @@ impl Desk {
     pub fn say(&mut self, word: StylusWord) {
         self.shared.lock().unwrap().word = Some(word);
         self.tick(&[]);
+    }
+
+    /// One tick in which the hand hears this and a stylus says that.
+    pub fn hear_beside(&mut self, told: &[HandInput], word: StylusWord) {
+        self.shared.lock().unwrap().word = Some(word);
+        self.hear(told);
+    }
+
+    /// What a stylus is for now.
+    pub fn leads(&self) -> Leads {
+        self.shared.lock().unwrap().human.stylus_leads_what()
     }
 
     /// How far the workspace of the stylus is to be turned and raised [rad].

@@ -209,4 +209,3 @@ pub fn stroke(speed_m_s: f64, left_rad: f64) -> Vec<Leg> {
     let legs = free.into_iter().chain(held).chain(after).map(|leg| leg.turned(turned));
     legs.collect()
 }
-
