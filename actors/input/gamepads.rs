@@ -75,8 +75,12 @@ impl PadSource for Gamepads {
     }
 
     fn shake(&mut self, rumble: Rumble) {
-        let pads: Vec<_> =
-            self.gilrs.gamepads().filter(|(_, pad)| pad.is_ff_supported()).map(|(id, _)| id).collect();
+        let pads: Vec<_> = self
+            .gilrs
+            .gamepads()
+            .filter(|(_, pad)| pad.is_ff_supported())
+            .map(|(id, _)| id)
+            .collect();
         if pads.is_empty() {
             return;
         }

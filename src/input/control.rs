@@ -82,9 +82,8 @@ impl Control {
     pub fn named(name: &str) -> Option<Self> {
         let mut letters = name.chars();
         if let (Some(letter), None) = (letters.next(), letters.next()) {
-            let is_key = letter.is_ascii_lowercase()
-                || letter.is_ascii_digit()
-                || MARKS.contains(letter);
+            let is_key =
+                letter.is_ascii_lowercase() || letter.is_ascii_digit() || MARKS.contains(letter);
             return is_key.then_some(Control::Key(Key::Letter(letter)));
         }
         let named = Self::named_ones();

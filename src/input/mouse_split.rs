@@ -26,7 +26,11 @@ impl MouseSplit {
     pub fn reader(&mut self, report: &HandInput) -> Reader {
         match report {
             HandInput::Moved { .. } | HandInput::Wheel { .. } => {
-                if self.holds(Action::Look) { Reader::Eye } else { Reader::Hand }
+                if self.holds(Action::Look) {
+                    Reader::Eye
+                } else {
+                    Reader::Hand
+                }
             }
             HandInput::Act { action, down } => {
                 self.held.act(*action, *down);

@@ -100,11 +100,8 @@ pub struct Hud {
 impl Hud {
     /// What stands in the window, given the state of the game and what the player does.
     pub fn new(board: &Scoreboard, view: &HumanView, texts: &Texts, words: &Words) -> Self {
-        let mut hud = Hud {
-            seats: seats(board, words),
-            help_hint: words.get("help_hint"),
-            ..Hud::default()
-        };
+        let mut hud =
+            Hud { seats: seats(board, words), help_hint: words.get("help_hint"), ..Hud::default() };
         if let Some(verdict) = &board.verdict {
             hud.message.push(texts.verdict(verdict));
             hud.is_foul = !verdict.fouls.is_empty();

@@ -57,9 +57,8 @@ impl MenuPanel {
                 fill: setting.and_then(|setting| fill(&menu.settings, setting)),
                 is_meant: n == focus,
                 is_live: menu.is_live(item),
-                is_choice: setting.is_some_and(|setting| {
-                    matches!(Settings::range(setting), Range::Choice(_))
-                }),
+                is_choice: setting
+                    .is_some_and(|setting| matches!(Settings::range(setting), Range::Choice(_))),
             }
         };
         let binds = page.items.iter().any(|item| matches!(item.effect, Effect::Binds(_)));
@@ -83,7 +82,9 @@ fn said(notice: &Notice, words: &Words) -> String {
         Notice::Wrong(text) => text.clone(),
         Notice::Lost { control, losers } => {
             let names: Vec<String> = losers.iter().map(|action| words.action(*action)).collect();
-            words.fill("key_lost", "key", &words.key(*control)).replace("{actions}", &names.join(", "))
+            words
+                .fill("key_lost", "key", &words.key(*control))
+                .replace("{actions}", &names.join(", "))
         }
         Notice::Refused { control, of } => words
             .fill("key_refused", "key", &words.key(*control))

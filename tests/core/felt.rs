@@ -11,8 +11,8 @@ use hapticbillard::ids::BallId;
 use hapticbillard::input::{HumanMode, HumanView};
 use hapticbillard::physics::{Parameters, Snapshot};
 use hapticbillard::renderer::{
-    DrawList, FeltLook, FeltTool, HelpOf, Hud, Overlay, Punctuality, Radii, Scoreboard, Solid, SolidShape,
-    Words, aimed_by_stylus, force_colour,
+    DrawList, FeltLook, FeltTool, HelpOf, Hud, Overlay, Punctuality, Radii, Scoreboard, Solid,
+    SolidShape, Words, aimed_by_stylus, force_colour,
 };
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;

@@ -10,8 +10,8 @@ use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::{HumanMode, HumanView, STYLUS};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    DrawList, HelpOf, Hud, Playhead, Radii, Remaining, Scoreboard, Shape, Words, ball_look, between,
-    cue_shape, sphere,
+    DrawList, HelpOf, Hud, Playhead, Radii, Remaining, Scoreboard, Shape, Words, ball_look,
+    between, cue_shape, sphere,
 };
 use hapticbillard::rules::{Language, Texts};
 use smallvec::smallvec;

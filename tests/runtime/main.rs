@@ -52,12 +52,12 @@ mod logging;
 mod manual;
 /// Who stands in for whom.
 mod mocks;
-/// Gamepads: the driver's thread, and a whole game by a mock device in front of it.
-mod pads;
 /// Devices of the vendor's HD library, in front of a stub of it.
 mod openhaptics;
 /// What enters from outside: pauses, wrong files.
 mod outside;
+/// Gamepads: the driver's thread, and a whole game by a mock device in front of it.
+mod pads;
 /// Pictures without a window.
 #[cfg(feature = "renderer")]
 mod pictures;

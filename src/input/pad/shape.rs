@@ -8,9 +8,9 @@ pub const DEAD_ZONE: f64 = 0.15;
 
 /// Right and up without the dead zone, along a curve; its length is 0 to 1.
 ///
-/// With the length r of `at`, at most 1: `s = (r − DEAD_ZONE) / (1 − DEAD_ZONE)`, and the result has
-/// the length `(s + 2 s³) / 3`: a third of the slope at the middle, all of the way at the end. The
-/// dead zone is round, so that no direction is drawn to an axis.
+/// With the length r of `at`, at most 1, and `s = (r − DEAD_ZONE) / (1 − DEAD_ZONE)`, the result
+/// has the length `(s + 2 s³) / 3`: a third of the slope at the middle, all of the way at the end.
+/// The dead zone is round, so that no direction is drawn to an axis.
 ///
 /// Limits: 0 within the dead zone, and for what is no number; 1 at the rim and beyond it.
 pub fn shaped(at: DVec2) -> DVec2 {
@@ -33,8 +33,9 @@ mod tests {
         assert_eq!(shaped(DVec2::new(f64::INFINITY, 0.0)), DVec2::ZERO);
         assert!((shaped(DVec2::new(0.0, -1.0)) - DVec2::NEG_Y).length() < 1e-12);
         assert!((shaped(DVec2::new(3.0, 4.0)).length() - 1.0).abs() < 1e-12);
-        let lengths: Vec<f64> =
-            (0..=100).map(|n| shaped(DVec2::from_angle(1.0) * f64::from(n) / 100.0).length()).collect();
+        let lengths: Vec<f64> = (0..=100)
+            .map(|n| shaped(DVec2::from_angle(1.0) * f64::from(n) / 100.0).length())
+            .collect();
         assert!(lengths.is_sorted());
         // No step where the dead zone ends.
         assert!(lengths.windows(2).all(|pair| pair[1] - pair[0] < 0.04), "{lengths:?}");

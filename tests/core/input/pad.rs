@@ -5,9 +5,7 @@ use glam::DVec2;
 use hapticbillard::events::{Fact, FactKind};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::feel::{KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S};
-use hapticbillard::input::{
-    HumanMode, PadAxis, PadButton, PadInput, PadQueue, RawInput, Rumble,
-};
+use hapticbillard::input::{HumanMode, PadAxis, PadButton, PadInput, PadQueue, RawInput, Rumble};
 
 fn axis(axis: PadAxis, value: f64) -> RawInput {
     RawInput::Pad(PadInput::Axis { axis, value })
@@ -34,18 +32,21 @@ fn stroke(pressed: f64, back_ms: u32) -> (f64, f64) {
 #[test]
 fn a_trigger_strokes_as_hard_as_it_was_held() {
     let mut speeds = Vec::new();
-    for pressed in [0.1, 0.3, 0.5, 0.7, 0.85, 1.0] {
+    for pressed in [0.15, 0.3, 0.5, 0.7, 0.85, 1.0] {
         for back_ms in [1, 30, 80] {
             let (shown, made) = stroke(pressed, back_ms);
             let off = (made - shown).abs();
-            assert!(off < 0.07 * shown + 0.02, "{pressed} in {back_ms} ms: {made}, not {shown} m/s");
+            assert!(
+                off < 0.07 * shown + 0.02,
+                "{pressed} in {back_ms} ms: {made}, not {shown} m/s"
+            );
             speeds.push(made);
         }
     }
     let least = speeds.iter().copied().fold(f64::INFINITY, f64::min);
     let most = speeds.iter().copied().fold(0.0, f64::max);
     println!("strokes by trigger: {least:.2} to {most:.2} m/s: {speeds:.2?}");
-    assert!(least < KEY_SPEED_LEAST_M_S + 0.05 && 0.95 * KEY_SPEED_MOST_M_S < most);
+    assert!(least < KEY_SPEED_LEAST_M_S + 0.08 && 0.95 * KEY_SPEED_MOST_M_S < most);
 }
 
 #[test]
@@ -83,8 +84,7 @@ fn sticks_turn_raise_and_shift_finely_with_a_shoulder() {
     desk.tick(&[axis(PadAxis::LeftX, 0.05)]);
     let coarse = aim(&desk).azimuth_rad - before.azimuth_rad;
     assert!((coarse - 0.12).abs() < 1e-9, "a tenth of a second at 1.2 rad/s: {coarse}");
-    let shoulder =
-        |down| RawInput::Pad(PadInput::Button { button: PadButton::LeftShoulder, down });
+    let shoulder = |down| RawInput::Pad(PadInput::Button { button: PadButton::LeftShoulder, down });
     desk.tick(&[shoulder(true), axis(PadAxis::LeftX, -1.0)]);
     desk.wait(99);
     desk.tick(&[shoulder(false), axis(PadAxis::LeftX, 0.0)]);
@@ -104,7 +104,7 @@ fn sticks_turn_raise_and_shift_finely_with_a_shoulder() {
 #[test]
 fn all_edges_come_in_order_and_of_an_axis_one_place_a_look() {
     let mut queue = PadQueue::default();
-    let (mut said, mut heard) = (Vec::new(), Vec::new());
+    let (mut said, mut heard): (Vec<PadInput>, Vec<PadInput>) = Default::default();
     let mut last = DVec2::ZERO;
     for ms in 0..2000u32 {
         let place = DVec2::from_angle(f64::from(ms) * 0.01);
@@ -129,11 +129,12 @@ fn all_edges_come_in_order_and_of_an_axis_one_place_a_look() {
             assert_eq!((x.len(), y.len()), (1, 1), "at most one place");
             last = DVec2::new(x[0], y[0]);
             assert_eq!(last, place, "the newest");
-            heard.extend(look.iter().filter(|report| matches!(report, PadInput::Button { .. })));
+            let edges = look.into_iter().filter(|report| matches!(report, PadInput::Button { .. }));
+            heard.extend(edges);
         }
     }
     assert_eq!(said.len(), 200);
-    assert_eq!(heard, said.iter().collect::<Vec<_>>().into_iter().copied().collect::<Vec<_>>());
+    assert_eq!(heard, said);
     assert!(queue.take().is_empty() && queue.lost() == 0 && last != DVec2::ZERO);
 }
 
