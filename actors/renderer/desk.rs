@@ -1,6 +1,6 @@
 //! What happens in a window: devices, the menu, the game, the next picture.
 
-mod pointing;
+mod devices;
 
 use super::encoded;
 use super::hud;
@@ -250,18 +250,6 @@ impl<'a> Desk<'a> {
         };
         let orders = self.lobby.hear(report, self.pointed());
         self.obey(orders, flow);
-    }
-
-    /// Gamepads have said something. They speak to every window, but only the one that has the
-    /// keyboard is meant.
-    fn hear_pads(&mut self, flow: &mut ControlFlow) {
-        let Some(pads) = &self.pads else { return };
-        let is_meant = |report: &PadInput| {
-            self.is_focused || matches!(report, PadInput::Connected | PadInput::Lost)
-        };
-        for report in pads.take().into_iter().filter(is_meant).collect::<Vec<_>>() {
-            self.hear(RawInput::Pad(report), flow);
-        }
     }
 
     /// The mouse moved to the right and down [pixels].

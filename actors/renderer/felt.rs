@@ -189,6 +189,7 @@ mod tests {
             leads,
             has_turns: true,
             by_mouse: false,
+            stylus: None,
         });
         screen.take(0.0);
         screen

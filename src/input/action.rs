@@ -140,6 +140,33 @@ impl Action {
         matches!(self, MenuUp | MenuDown | MenuLess | MenuMore | MenuAccept | MenuBack | Pause)
     }
 
+    /// Whether it goes on as long as its key is held; the others do what they do at once.
+    pub fn is_held(self) -> bool {
+        use Action::{
+            Fine, Hurry, Look, Lower, MouseMovesTip, Raise, Strike, Stroke, TipDown, TipLeft,
+            TipRight, TipUp, TurnLeft, TurnRight, Wheel, WheelRaises,
+        };
+        matches!(
+            self,
+            TurnLeft
+                | TurnRight
+                | TipLeft
+                | TipRight
+                | TipUp
+                | TipDown
+                | Raise
+                | Lower
+                | WheelRaises
+                | MouseMovesTip
+                | Stroke
+                | Strike
+                | Fine
+                | Look
+                | Wheel
+                | Hurry
+        )
+    }
+
     /// Which of the options it takes, counted from 0.
     pub fn option(self) -> Option<usize> {
         [Action::Option1, Action::Option2, Action::Option3].iter().position(|one| *one == self)

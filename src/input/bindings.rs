@@ -156,7 +156,7 @@ impl Bindings {
     }
 
     /// The same with what a file says over them. What it says nothing of stays as it is, but for
-    /// keys that it gives to others.
+    /// keys that it gives to others, if that is not one of the menus'.
     ///
     /// # Errors
     /// [`BindingsError`]: which line, and what is meant.
@@ -165,7 +165,8 @@ impl Bindings {
         let mut keys = self.keys.clone();
         for (action, (_, controls)) in &read.keys {
             for (other, held) in &mut keys {
-                if !read.keys.contains_key(other) && self.meet(*action, *other).is_some() {
+                let is_open = !read.keys.contains_key(other) && !is_of_menus(*other);
+                if is_open && self.meet(*action, *other).is_some() {
                     held.retain(|control| !controls.contains(control));
                 }
             }
@@ -248,15 +249,12 @@ impl Bindings {
     /// Nobody uses a menu without its keys: they stay, and so does the last key for a pause.
     fn cannot_lose(&self, action: Action, control: Control) -> bool {
         let others = self.keys(action).iter().filter(|key| **key != control);
-        action.controller() == Controller::Menu
-            || action.is_needed() && others.filter(|key| !key.is_pad()).count() == 0
+        is_of_menus(action) || action.is_needed() && others.filter(|key| !key.is_pad()).count() == 0
     }
 
     /// As a file.
     pub fn to_toml(&self) -> String {
-        let mut text = String::from(
-            "# The keys of HapticBillard: a list for every action. What is left out is as usual.\n\n",
-        );
+        let mut text = String::from("# A list of keys for every action.\n\n");
         for action in Action::ALL {
             let names: Vec<String> =
                 self.keys(*action).iter().map(|key| format!("{:?}", key.name())).collect();
@@ -265,6 +263,10 @@ impl Bindings {
         }
         text
     }
+}
+
+fn is_of_menus(action: Action) -> bool {
+    action.controller() == Controller::Menu
 }
 
 /// A file of keys: for every action in it the line, and the keys.

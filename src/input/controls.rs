@@ -55,8 +55,8 @@ impl Controls {
             return held.map(|action| (action, Edge::Repeated));
         }
         let action = self.bindings.action(control, self.profile);
-        // The second of two keys for one thing begins nothing.
-        let begins = action.filter(|action| !self.has(*action));
+        // What goes on already does not begin with a second key.
+        let begins = action.filter(|action| !(action.is_held() && self.has(*action)));
         self.held.insert(control, action);
         begins.map(|action| (action, Edge::Pressed))
     }

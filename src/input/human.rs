@@ -29,6 +29,8 @@
 //!
 //! [`Bindings`]: super::Bindings
 
+mod acts;
+
 mod ahead;
 use ahead::Ahead;
 
@@ -61,9 +63,7 @@ use super::tip::{Tip, address_path, stroke_path};
 use super::{Action, HandInput, sight};
 use crate::ball::POOL_RADIUS_M;
 use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
-use crate::events::{
-    Command, Event, Fact, FactKind, MenuAction, Source, Topic, Topics, Turn, Zone,
-};
+use crate::events::{Command, Event, Fact, FactKind, Source, Topic, Topics, Turn, Zone};
 use crate::hash::StateHash;
 use crate::ids::{BallId, PlayerId};
 use crate::physics::Snapshot;
@@ -325,47 +325,6 @@ impl Human {
             self.raise(notches * ELEVATION_RAD_PER_NOTCH * self.fine());
         } else {
             self.camera.zoom(libm::pow(ZOOM_PER_NOTCH, notches));
-        }
-    }
-
-    /// An action begins. True if the game shall end.
-    fn begin(&mut self, action: Action) -> bool {
-        match action {
-            Action::Stroke => self.press(),
-            Action::Strike => self.press_key(),
-            Action::Pause => self.pause_or_resume(),
-            Action::Quit => return self.paused,
-            Action::BirdsEye => self.is_bird = !self.is_bird,
-            Action::Camera => self.lead_camera_or_cue(),
-            Action::TipMiddle if !self.paused => {
-                let middle = |aim: &mut Aim| {
-                    (aim.side_offset, aim.height_offset) = (0.0, 0.0);
-                };
-                self.change_aim(middle);
-            }
-            Action::Option1 | Action::Option2 | Action::Option3 => {
-                action.option().into_iter().for_each(|option| self.pick(option));
-            }
-            Action::UndoShot if self.is_practice && !self.paused => self.take_shot_back(),
-            Action::TakeUpBall if self.is_practice && !self.paused => self.take_up(),
-            Action::NextPocket | Action::NextBall | Action::Safety | Action::PushOut => {
-                self.step(action);
-            }
-            Action::AimAid => self.ahead.aid = self.ahead.aid.next(),
-            Action::Panel => self.overlay = !self.overlay,
-            _ => {}
-        }
-        false
-    }
-
-    fn pause_or_resume(&mut self) {
-        self.paused = !self.paused;
-        if self.paused {
-            // Nobody holds a cue through a pause.
-            self.let_go();
-            self.say(Event::Menu(MenuAction::Pause));
-        } else {
-            self.say(Event::Menu(MenuAction::Resume));
         }
     }
 

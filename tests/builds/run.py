@@ -33,7 +33,8 @@ FEATURES = [
     ("renderer", ["renderer"]),
     ("sound", ["sound"]),
     ("rtkit", ["rtkit"]),
-    ("all", ["renderer", "sound", "rtkit"]),
+    ("gamepad", ["gamepad"]),
+    ("all", ["gamepad", "renderer", "sound", "rtkit"]),
 ]
 
 

@@ -8,9 +8,9 @@ pub const DEAD_ZONE: f64 = 0.15;
 
 /// Right and up without the dead zone, along a curve; its length is 0 to 1.
 ///
-/// With the length r of `at`, at most 1: `s = (r − DEAD_ZONE) / (1 − DEAD_ZONE)`, and the result has
-/// the length `(s + 2 s³) / 3`: a third of the slope at the middle, all of the way at the end. The
-/// dead zone is round, so that no direction is drawn to an axis.
+/// With the length r of `at`, at most 1, and `s = (r − DEAD_ZONE) / (1 − DEAD_ZONE)`, the result
+/// has the length `(s + 2 s³) / 3`: a third of the slope at the middle, all of the way at the end.
+/// The dead zone is round, so that no direction is drawn to an axis.
 ///
 /// Limits: 0 within the dead zone, and for what is no number; 1 at the rim and beyond it.
 pub fn shaped(at: DVec2) -> DVec2 {

@@ -8,11 +8,12 @@
 //!
 //! `h(now) = max(t, h(before) − EASE_PER_S · 1 ms)`,
 //!
-//! which follows a finger that presses, or eases off slowly, and waits for one that is quicker. When
-//! `t < LET_GO · h`, the tip strikes; whoever eases off more slowly than [`EASE_PER_S`] puts the cue
-//! down again. The share of the way is `s = (h − b) / (1 − b)` with [`TRIGGER_BEGIN`] b, the tip is pulled back by
-//! `s · PULL_MAX_M`, and strikes with `0.3 m/s + 7.7 m/s · s²`, as a stroke by a key does
-//! ([`KeyStroke`]): a trigger of 256 steps sets 2 m/s to within 0.03 m/s.
+//! which follows a finger that presses, or eases off slowly, and waits for one that is quicker.
+//! When `t < LET_GO · h`, the tip strikes; whoever eases off more slowly than [`EASE_PER_S`] puts
+//! the cue down again. With [`TRIGGER_BEGIN`] b the share of the way is `s = (h − b) / (1 − b)`;
+//! the tip is pulled back by `s · PULL_MAX_M`, and strikes with `0.3 m/s + 7.7 m/s · s²`, as a
+//! stroke by a key does ([`KeyStroke`]). A trigger of 256 steps sets 2 m/s to within 0.03 m/s; one
+//! that takes 80 ms to come back makes a soft stroke a tenth softer than one that snaps.
 //!
 //! [`KeyStroke`]: super::super::human
 //! [`TRIGGER_BEGIN`]: super::super::feel::TRIGGER_BEGIN

@@ -1,8 +1,9 @@
-//! What points at things in the window: the mouse, or a stylus.
+//! Gamepads and styluses at a window, and what points at things in it: the mouse, or a stylus.
 
 use super::super::hud;
 use super::Desk;
 use glam::DVec2;
+use hapticbillard::input::{PadInput, RawInput};
 use hapticbillard::menu::Pointed;
 use hapticbillard::renderer::MenuLayout;
 use winit::event_loop::ControlFlow;
@@ -12,6 +13,18 @@ impl Desk<'_> {
     pub(super) fn size(&self) -> DVec2 {
         let size = self.window.inner_size();
         DVec2::new(size.width.max(1).into(), size.height.max(1).into())
+    }
+
+    /// Gamepads have said something. They speak to every window, but only the one that has the
+    /// keyboard is meant.
+    pub(super) fn hear_pads(&mut self, flow: &mut ControlFlow) {
+        let Some(pads) = &self.pads else { return };
+        let is_meant = |report: &PadInput| {
+            self.is_focused || matches!(report, PadInput::Connected | PadInput::Lost)
+        };
+        for report in pads.take().into_iter().filter(is_meant).collect::<Vec<_>>() {
+            self.hear(RawInput::Pad(report), flow);
+        }
     }
 
     /// A stylus has said something.
