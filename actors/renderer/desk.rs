@@ -14,8 +14,7 @@ use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::{
-    Action, AimAid, Button, Controller, HandInput, HumanMode, PadInput, RawInput, Steering,
-    StylusMouse,
+    Action, AimAid, Button, Controller, HandInput, HumanMode, RawInput, Steering, StylusMouse,
 };
 use hapticbillard::menu::{HapticChoice, Lobby, Order};
 use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuPanel, WheelPanel, Words};

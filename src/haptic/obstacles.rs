@@ -78,6 +78,31 @@ impl Obstacles<'_> {
         worst
     }
 
+    /// Where a sphere comes to that goes from `from` to `to` in steps so short that it does not get
+    /// through a face, each of which moves it out of whatever it is in. The normals of what was
+    /// touched last go to `each`.
+    pub fn swept(
+        &self,
+        from: DVec3,
+        to: DVec3,
+        radius_m: f64,
+        side: DVec3,
+        mut each: impl FnMut(&Touch),
+    ) -> DVec3 {
+        /// Longest step as a share of the radius, and most steps.
+        const STEP: f64 = 0.5;
+        const STEPS_MAX: f64 = 40.0;
+        let count = (from.distance(to) / (STEP * radius_m)).ceil().clamp(1.0, STEPS_MAX);
+        let step = (to - from) / count;
+        let mut centre = from;
+        for _ in 1..count as u32 {
+            centre = self.pushed_out(centre + step, radius_m, side, |_| ());
+        }
+        // A step that is the whole way ends just there.
+        let last = if count == 1.0 { to } else { centre + step };
+        self.pushed_out(last, radius_m, side, &mut each)
+    }
+
     /// `centre`, moved out of whatever it is in. What was touched first is the second value; the
     /// normals go to `each`.
     pub fn pushed_out(

@@ -86,6 +86,11 @@ impl Proxy {
         self.is_touching = false;
     }
 
+    /// It is here now, whatever it was at.
+    pub fn lay(&mut self, at: DVec3) {
+        *self = Proxy { centre: at, is_laid: true, ..Proxy::default() };
+    }
+
     /// Follows the hand to `target`.
     pub fn follow(
         &mut self,

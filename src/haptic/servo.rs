@@ -21,6 +21,11 @@ use std::sync::Arc;
 /// What moves is never carried farther than this at a time [s]: a stall is not caught up with.
 const DT_MAX_S: Seconds = 0.02;
 
+/// A tip that is laid anew goes so many times as far as it can go in a tick: across the workspace.
+const LAY_MAX: u32 = 12;
+/// It has arrived when it goes no farther than this [m].
+const LAID_M: f64 = 1e-6;
+
 /// Everything that is rendered, between two ticks.
 ///
 /// [`Servo::tick`] returns within microseconds, allocates nothing, takes no lock and never panics.
@@ -128,9 +133,7 @@ impl Servo {
         let place = self.proxy.centre();
         let placed = self.workspace.place(reach, device, place, &settings.reach, dt);
         if placed.is_new {
-            self.tip.lay(placed.target);
-            self.proxy.lift();
-            self.lead = Lead::default();
+            self.lay(&placed, reach.tip_radius_m);
         }
         let lead = [self.lead, self.lead_after(reach, &placed, dt)];
         self.lead = lead[1];
@@ -140,9 +143,8 @@ impl Servo {
         let mesh = self.mesh.as_deref();
         let fixed = Obstacles { mesh, balls: [None; BALLS_MAX] };
         let mut held = None;
-        let out = fixed.pushed_out(self.tip.at(), reach.tip_radius_m, DVec3::Z, |touch| {
-            held = Some(touch.normal);
-        });
+        let (from, to, radius_m) = (piece.from, self.tip.at(), reach.tip_radius_m);
+        let out = fixed.swept(from, to, radius_m, DVec3::Z, |touch| held = Some(touch.normal));
         if let Some(normal) = held {
             self.tip.held(out, normal);
         }
@@ -152,7 +154,7 @@ impl Servo {
         let mesh = self.mesh.as_deref();
         let obstacles = Obstacles { mesh, balls: touched(&self.world, &placed) };
         let friction = settings.coupling.friction;
-        let met = self.proxy.follow(placed.target, reach.tip_radius_m, friction, &obstacles);
+        let met = self.proxy.follow(placed.target, radius_m, friction, &obstacles);
         if met.is_new && reach.solid {
             self.meet(&met, &placed);
         }
@@ -169,6 +171,22 @@ impl Servo {
             contact: placed.force + touched,
             sharp: self.transient.force(dt, &settings.transient),
         }
+    }
+
+    /// Lays the tip anew: from the ball to where the device would have it, so that it is never under
+    /// the table where the hand lies low.
+    fn lay(&mut self, placed: &Placed, radius_m: f64) {
+        let fixed = Obstacles { mesh: self.mesh.as_deref(), balls: [None; BALLS_MAX] };
+        self.proxy.lay(placed.pivot);
+        for _ in 0..LAY_MAX {
+            let before = self.proxy.centre();
+            self.proxy.follow(placed.target, radius_m, 0.0, &fixed);
+            if before.distance(self.proxy.centre()) < LAID_M {
+                break;
+            }
+        }
+        self.tip.lay(self.proxy.centre());
+        self.lead = Lead::default();
     }
 
     /// Bc acts on the speed into what is touched, never pulls.

@@ -168,3 +168,23 @@ fn every_press_begins_a_stroke_but_one_that_was_made_for_something_else() {
     assert!(!tick(Buttons::FRONT, cue));
     assert!(!tick(Buttons::default(), cue) && tick(Buttons::FRONT, cue));
 }
+
+#[test]
+fn a_workspace_laid_while_the_hand_is_low_leaves_the_tip_on_the_table() {
+    let table = hapticbillard::table::Table::preset("pool-9ft").unwrap();
+    let mesh = hapticbillard::haptic::HapticMesh::of(&table);
+    let mut desk = Desk::new(&Aim::default());
+    desk.servo = desk.servo.among(std::sync::Arc::new(mesh));
+    let reach = desk.scene.reach.as_mut().unwrap();
+    reach.pivot = DVec3::new(-0.6, 0.0, hapticbillard::ball::POOL_RADIUS_M);
+    let radius_m = reach.tip_radius_m;
+    // 60 mm under the ball, which lies 29 mm above the bed.
+    let low = DVec3::new(0.01, -0.03, 0.02);
+    for tick in 0..20 {
+        let report = desk.at(low);
+        assert!(report.sample.tip.z > radius_m - 1e-6, "{tick}: {}", report.sample.tip);
+        assert!(report.proxy.z > radius_m - 1e-6, "{tick}: {}", report.proxy);
+    }
+    let up = desk.at(DVec3::new(0.01, 0.01, 0.02));
+    assert!(up.sample.tip.z > radius_m, "{}", up.sample.tip);
+}

@@ -179,6 +179,8 @@ impl Seated {
 
     /// Puts a ball in hand down near the head spot, where it may lie.
     fn place(&mut self) {
+        // The camera goes over the table first.
+        self.wait(0.5);
         for i in 0..60 {
             let (column, row) = (i % 6, i / 6);
             let wanted = DVec2::new(-0.75 - 0.05 * f64::from(row), -0.25 + 0.1 * f64::from(column));
