@@ -253,6 +253,9 @@ fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
     if board.over.is_some() {
         return String::new();
     }
+    if view.look.free && view.mode != HumanMode::Paused {
+        return words.get("free_camera");
+    }
     match view.mode {
         HumanMode::Choosing => words.get("choose"),
         HumanMode::Placing if view.placing_allowed && view.is_practice => {

@@ -16,7 +16,7 @@ use hapticbillard::input::{
 };
 use hapticbillard::menu::{
     Act, Deed, Effect, GameChoice, Lobby, Menu, MenuInput, Order, Pages, Pointed, Range, Seat,
-    Setting, Settings, TableChoice, Tongue,
+    Setting, Settings, TableChoice, Tongue, Wheel, WheelPage,
 };
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words, player_names};
 use hapticbillard::rules::Language;
@@ -99,6 +99,8 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
             assert!(has(&format!("title_{}", page.title)), "{}", page.title);
             assert!(page.items.iter().all(|item| has(&item.text)), "{}", page.name);
         }
+        let wheel = Wheel::open(WheelPage::shipped().unwrap(), glam::DVec2::ZERO, 720.0);
+        assert!(wheel.items().all(|(action, ..)| has(&format!("wheel_{}", action.name()))));
         // Whatever is set has a name: no line shows a key.
         let mut menu = menu();
         for name in ["mode", "options"] {
