@@ -1,5 +1,5 @@
-//! What holds the hand while it leads no cue: the spring of the wheel menu, and the return spring of
-//! the camera between six planes (paper, sections 3.3.2 and 3.3.3).
+//! What holds the hand while it leads no cue: the spring of the wheel menu, and the return spring
+//! of the camera between six planes (paper, sections 3.3.2 and 3.3.3).
 //!
 //! Both are made in the servo's own tick, from the place where the stylus is in the tick in which
 //! they begin: what is felt and what is reckoned with is the same place.

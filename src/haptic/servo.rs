@@ -173,8 +173,8 @@ impl Servo {
         }
     }
 
-    /// Lays the tip anew: from the ball to where the device would have it, so that it is never under
-    /// the table where the hand lies low.
+    /// Lays the tip anew: from the ball to where the device would have it, so that it is never
+    /// under the table where the hand lies low.
     fn lay(&mut self, placed: &Placed, radius_m: f64) {
         let fixed = Obstacles { mesh: self.mesh.as_deref(), balls: [None; BALLS_MAX] };
         self.proxy.lay(placed.pivot);

@@ -8,6 +8,8 @@ mod aim;
 mod bindings;
 /// Calls, options, training.
 mod calls;
+/// A camera that is led by hand.
+mod camera;
 /// A game in lockstep with a script at mouse and keyboard.
 pub mod desk;
 /// A person whose stylus strikes.

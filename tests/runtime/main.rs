@@ -19,6 +19,9 @@ mod contact;
 /// An allocator that counts.
 #[path = "../counting.rs"]
 mod counting;
+/// A stylus without a game.
+#[cfg(feature = "renderer")]
+mod desk_stylus;
 /// Recordings of haptic devices as files.
 mod device_recordings;
 /// What the program says of a machine.

@@ -306,8 +306,7 @@ fn every_edge_of_a_button_is_told_in_order() {
     while let Ok(edge) = heard.pop() {
         edges.push((edge.button.0, edge.down));
     }
-    let expected = [(1, true), (2, true), (1, false), (2, false), (1, true), (1, false)];
-    assert_eq!(edges, expected);
+    assert_eq!(edges, [(1, true), (2, true), (1, false), (2, false), (1, true), (1, false)]);
 }
 
 #[test]
