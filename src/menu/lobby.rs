@@ -211,6 +211,8 @@ impl Lobby {
             RawInput::Pad(report) => self.pad(report),
             RawInput::FocusLost => {
                 self.controls.forget();
+                // What sticks do meanwhile nobody hears.
+                self.pad = PadState::default();
                 self.dragged = None;
                 self.move_menu(MenuInput::Never);
                 vec![Order::Tell(HandInput::FocusLost)]
@@ -294,8 +296,12 @@ impl Lobby {
                 let offers = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
                 if offers { self.obey(Deed::Leave) } else { Vec::new() }
             }
-            (Controller::Leave | Controller::Clock, Edge::Pressed) if self.game == Game::Over => {
-                vec![Order::Quit]
+            _ if self.game == Game::Over && matches!(action, Action::Pause | Action::Quit) => {
+                if edge == Edge::Pressed {
+                    vec![Order::Quit]
+                } else {
+                    Vec::new()
+                }
             }
             _ if action == Action::Help => {
                 self.shows_help ^= edge == Edge::Pressed;
@@ -359,7 +365,10 @@ impl Lobby {
                 let pushed = self.pad.pushed();
                 pushed.map_or_else(Vec::new, |action| self.act_in_menu(action, Edge::Pressed))
             }
-            Some(PadMeaning::Hand(input)) => vec![Order::Tell(input)],
+            Some(PadMeaning::Hand(input)) => {
+                self.is_by_pad |= input.is_moved();
+                vec![Order::Tell(input)]
+            }
             Some(PadMeaning::There(true)) => vec![Order::Say("pad_found")],
             Some(PadMeaning::There(false)) => self.lose_pad(),
             None => Vec::new(),
