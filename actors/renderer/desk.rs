@@ -120,7 +120,7 @@ impl<'a> Desk<'a> {
             start: now,
             due: now,
             wants_picture: false,
-            said: setup.keys.1.map(|said| (said, now + SAID_LONG)),
+            said: None,
             shown: None,
             is_focused: false,
             stylus: None,
@@ -133,6 +133,10 @@ impl<'a> Desk<'a> {
         desk.speak();
         desk.lobby.resize(desk.size());
         desk.haptic = desk.lobby.menu().map(|menu| menu.settings.haptic);
+        if let Some(problem) = setup.keys.1 {
+            let said = Words::new(desk.spoken).fill("keys_bad", "problem", &problem);
+            desk.said = Some((said, now + SAID_LONG));
+        }
         if setup.begins {
             desk.begin(true)?
         } else {
@@ -456,8 +460,9 @@ impl<'a> Desk<'a> {
     /// What is drawn and written now.
     fn seen(&mut self) -> Option<(DrawList, Hud)> {
         let now_s = self.now_s();
-        let panel = self.panel();
         let help = self.help();
+        // Both would stand on each other.
+        let panel = self.panel().filter(|_| help.is_none());
         let Some(game) = &mut self.game else {
             let (list, _) = self.backdrop.as_ref()?;
             let pointer = self.pointer_shown();

@@ -307,19 +307,33 @@ impl Pen<'_> {
         self.paragraph(top, self.screen.width() * 0.8, &lines);
     }
 
+    /// As wide as its texts, and never wider or higher than the window.
     fn help(&self, title: &str, rows: &[(String, String)]) {
-        let (row, width) = (27.0 * self.unit, 830.0 * self.unit);
-        let height = row * (rows.len() as f32 + 2.0);
-        let rect = Rect::from_center_size(self.screen.center(), vec2(width, height));
+        let width_of = |text: &String| {
+            self.painter.layout_no_wrap(text.clone(), self.font(15.5), TEXT).size().x
+        };
+        let keys_width = rows.iter().map(|(keys, _)| width_of(keys)).fold(0.0, f32::max);
+        let does_width = rows.iter().map(|(_, does)| width_of(does)).fold(0.0, f32::max);
+        let (row, pad, gap) = (27.0 * self.unit, 22.0 * self.unit, 26.0 * self.unit);
+        let size = vec2(keys_width + gap + does_width + 2.0 * pad, row * (rows.len() as f32 + 2.0));
+        let fits = (self.screen.size() / size).min_elem().min(1.0);
+        if fits < 1.0 {
+            // All lengths grow with the unit; a little less, because letters are whole pixels.
+            let smaller = Pen { unit: 0.97 * fits * self.unit, ..*self };
+            if 0.1 < smaller.unit {
+                return smaller.help(title, rows);
+            }
+        }
+        let rect = Rect::from_center_size(self.screen.center(), size);
         self.painter.rect_filled(rect, 9.0 * self.unit, PANEL);
         self.painter.rect_filled(rect, 9.0 * self.unit, PANEL);
-        let left = rect.left() + 22.0 * self.unit;
+        let left = rect.left() + pad;
         let mut y = rect.top() + 0.8 * row;
         self.text(pos2(left, y), Align2::LEFT_CENTER, title, 21.0, ACTIVE);
         for (keys, does) in rows {
             y += row;
             self.text(pos2(left, y), Align2::LEFT_CENTER, keys, 15.5, ACTIVE);
-            let at = pos2(left + 320.0 * self.unit, y);
+            let at = pos2(left + keys_width + gap, y);
             self.text(at, Align2::LEFT_CENTER, does, 15.5, TEXT);
         }
     }

@@ -41,7 +41,7 @@ pub struct WindowSetup {
     pub stop: StopFlag,
     /// Menus; without them the window is there for one game.
     pub menu: Option<Menu>,
-    /// What keys mean, and what the player must know of them.
+    /// What keys mean, and what is wrong with the player's own.
     pub keys: (Bindings, Option<String>),
     /// Gamepads, where there may be some.
     pub pads: Option<PadDriver>,

@@ -1,5 +1,6 @@
 //! What a hand hears: no keys any more, but what they mean.
 
+use super::feel::TRIGGER_BEGIN;
 use super::{Action, AimAid, Steering};
 use glam::DVec2;
 
@@ -57,6 +58,17 @@ pub enum HandInput {
     PadLost,
     /// The window was closed.
     Closed,
+}
+
+impl HandInput {
+    /// Whether this is a stick or a trigger that is not at rest.
+    pub fn is_moved(&self) -> bool {
+        match self {
+            HandInput::Stick { at, .. } => *at != DVec2::ZERO,
+            HandInput::Trigger(pressed) => TRIGGER_BEGIN < *pressed,
+            _ => false,
+        }
+    }
 }
 
 /// A stick of a gamepad.

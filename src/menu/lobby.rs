@@ -234,6 +234,8 @@ impl Lobby {
             RawInput::FocusLost => {
                 self.controls.forget();
                 (self.dragged, self.wheel) = (None, None);
+                // What sticks do meanwhile nobody hears.
+                self.pad = PadState::default();
                 self.move_menu(MenuInput::Never);
                 vec![Order::Tell(HandInput::FocusLost)]
             }
@@ -316,8 +318,12 @@ impl Lobby {
                 let offers = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
                 if offers { self.obey(Deed::Leave) } else { Vec::new() }
             }
-            (Controller::Leave | Controller::Clock, Edge::Pressed) if self.game == Game::Over => {
-                vec![Order::Quit]
+            _ if self.game == Game::Over && matches!(action, Action::Pause | Action::Quit) => {
+                if edge == Edge::Pressed {
+                    vec![Order::Quit]
+                } else {
+                    Vec::new()
+                }
             }
             _ if action == Action::Wheel => self.act_on_wheel(edge),
             _ if self.wheel.is_some() && edge == Edge::Pressed => self.step_wheel(action),
@@ -384,7 +390,10 @@ impl Lobby {
                 pushed.map_or_else(Vec::new, |action| self.act_in_menu(action, Edge::Pressed))
             }
             Some(PadMeaning::Hand(input)) if self.lean_wheel(&input) => Vec::new(),
-            Some(PadMeaning::Hand(input)) => vec![Order::Tell(input)],
+            Some(PadMeaning::Hand(input)) => {
+                self.is_by_pad |= input.is_moved();
+                vec![Order::Tell(input)]
+            }
             Some(PadMeaning::There(true)) => vec![Order::Say("pad_found")],
             Some(PadMeaning::There(false)) => self.lose_pad(),
             None => Vec::new(),
