@@ -8,7 +8,7 @@
 //! | [`Signs`] to the control | how far the mouse has turned the workspace | sums count |
 //! | report out | everything about the last tick | the newest counts |
 //! | samples out | the stylus at every tick, for who strikes | the oldest stay, loss is counted |
-//! | edges out | presses and releases in order, for a window | the same; a sample tells what is held |
+//! | edges out | presses and releases, in order | the same; a sample tells what is held |
 //! | picture out | the same as the report, for a window | the newest counts |
 //! | telemetry out | everything about every tick | the oldest stay, loss is counted |
 
