@@ -1,8 +1,10 @@
 use crate::bytes::{check_line, text};
+use hapticbillard::input::Bindings;
 use hapticbillard::menu::{Setting, Settings};
 use hapticbillard::scene::Scene;
 
 pub fn run(data: &[u8]) {
+    keys(&text(data));
     let settings = match Settings::parse(&text(data)) {
         Ok(settings) => settings,
         Err(problem) => return check_line(&problem),
@@ -22,5 +24,14 @@ pub fn run(data: &[u8]) {
     let mut scene = Scene::parse("game.toml", &settings.scene_text()).expect("a shipped scene");
     for (section, entrant) in scene.players.iter_mut().zip(settings.entrants()) {
         entrant.apply(section);
+    }
+}
+
+/// The same bytes as the player's file of keys: understood, it is the same when it was written.
+fn keys(text: &str) {
+    let usual = Bindings::shipped();
+    match usual.with_file("keys.toml", text) {
+        Ok(keys) => assert_eq!(usual.with_file("keys.toml", &keys.to_toml()), Ok(keys)),
+        Err(problem) => check_line(&problem.to_string()),
     }
 }
