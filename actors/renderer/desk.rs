@@ -183,6 +183,7 @@ impl<'a> Desk<'a> {
                 self.hear_stylus(flow);
                 if self.unkept.is_some_and(|since| KEEP_AFTER <= since.elapsed()) {
                     self.keep();
+                    self.change_stylus();
                 }
                 if self.due <= Instant::now() {
                     self.draw();
@@ -402,11 +403,6 @@ impl<'a> Desk<'a> {
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
         if std::mem::replace(&mut self.is_full, is_full) != is_full {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
-        }
-        let haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
-        // A game that goes on keeps the device that it has.
-        if std::mem::replace(&mut self.haptic, haptic) != haptic && !self.lobby.has_game() {
-            self.take_up_stylus();
         }
         self.apply();
     }

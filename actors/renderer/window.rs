@@ -83,7 +83,7 @@ pub trait Host {
     ///
     /// # Errors
     /// Why it is not there; the player reads it.
-    fn stylus(&mut self, settings: Option<&Settings>) -> Result<Option<DeskStylus>, Error>;
+    fn stylus(&mut self, settings: &Settings) -> Result<Option<DeskStylus>, Error>;
 
     /// A game has ended.
     ///

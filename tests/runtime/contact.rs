@@ -76,6 +76,8 @@ struct Leaning {
     time_s: f64,
     /// Time since there was no force [s].
     since_s: f64,
+    /// It leant already when the force went: what comes now is the same force again.
+    has_leant: bool,
 }
 
 impl Device for Leaning {
@@ -115,10 +117,10 @@ impl Device for Leaning {
         let is_held = wires.signs.get().is_none_or(|signs| signs.is_held());
         self.alone = if force_n > 0.0 && !is_held { self.alone + 1 } else { 0 };
         wires.pushed_alone.fetch_max(self.alone, Ordering::SeqCst);
+        raise(&wires.most, force_n);
         if force_n == 0.0 {
-            self.since_s = 0.0;
-        } else {
-            raise(&wires.most, force_n);
+            (self.since_s, self.has_leant) = (0.0, wires.leans.load(Ordering::SeqCst));
+        } else if self.has_leant {
             raise(&wires.steepest, force_n / self.since_s);
         }
     }
@@ -170,6 +172,7 @@ impl Game {
             alone: 0,
             time_s: 0.0,
             since_s: 0.0,
+            has_leant: false,
         };
         let plan = Plan {
             opened: Opened::new(device),

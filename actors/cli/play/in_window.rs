@@ -209,12 +209,11 @@ impl Host for House<'_> {
         backdrop(&self.stage)
     }
 
-    fn stylus(&mut self, settings: Option<&Settings>) -> Result<Option<DeskStylus>, Error> {
-        // Until a game is begun from the menus, the device is that of the command line's scene.
-        let is_set = settings.filter(|settings| settings.haptic != HapticChoice::None);
-        let plan = match is_set {
-            Some(settings) => stage_of(settings, Language::English)?.haptic()?,
-            None => self.stage.haptic()?,
+    fn stylus(&mut self, settings: &Settings) -> Result<Option<DeskStylus>, Error> {
+        // A scene of the command line may have a device that is not set.
+        let plan = match settings.haptic {
+            HapticChoice::None => self.stage.haptic()?,
+            _ => stage_of(settings, Language::English)?.haptic()?,
         };
         let Some(opened) = plan.map(|plan| plan.opened).filter(|opened| opened.points) else {
             return Ok(None);
@@ -275,7 +274,7 @@ impl Host for Replay<'_> {
         backdrop(self.stage)
     }
 
-    fn stylus(&mut self, _: Option<&Settings>) -> Result<Option<DeskStylus>, Error> {
+    fn stylus(&mut self, _: &Settings) -> Result<Option<DeskStylus>, Error> {
         Ok(None)
     }
 

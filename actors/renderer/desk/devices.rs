@@ -45,11 +45,21 @@ impl Desk<'_> {
         }
     }
 
+    /// Another device may be set. One that is not there lets a while pass, so it is asked only when
+    /// nothing more is set.
+    pub(super) fn change_stylus(&mut self) {
+        let haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
+        // A game that goes on keeps the device that it has.
+        if std::mem::replace(&mut self.haptic, haptic) != haptic && !self.lobby.has_game() {
+            self.take_up_stylus();
+        }
+    }
+
     /// Menus hear the stylus of the device that is set, while no game has it.
     pub(super) fn take_up_stylus(&mut self) {
         self.stylus = None;
-        let settings = self.lobby.menu().map(|menu| &menu.settings);
-        match self.host.stylus(settings) {
+        let Some(menu) = self.lobby.menu() else { return };
+        match self.host.stylus(&menu.settings) {
             Ok(stylus) => self.stylus = stylus,
             Err(error) => {
                 tracing::warn!("{error}");
