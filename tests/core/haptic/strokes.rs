@@ -1,7 +1,7 @@
 //! Strokes of a simulated hand on a simulated Omni, at the shipped settings.
 
 use super::rig::{Felt, balls, drawn_back, play, stroke};
-use crate::input::desk::Desk;
+use crate::input::desk::{Desk, RATES_HZ};
 use glam::DVec2;
 use hapticbillard::cue::Aim;
 use hapticbillard::events::FactKind;
@@ -97,9 +97,15 @@ fn desk() -> Desk {
 /// Velocity of the cue ball two ticks after a stroke with the mouse, how fast the tip was, and how
 /// it was aimed.
 fn mouse_stroke(tip_m_s: f64) -> (DVec2, f64, Aim) {
+    mouse_stroke_at(tip_m_s, 1000, 0)
+}
+
+/// The same with a mouse that reports so often, begun so many ticks later.
+fn mouse_stroke_at(tip_m_s: f64, rate_hz: u32, later: u64) -> (DVec2, f64, Aim) {
     let mut desk = desk();
     let aim = desk.view().aim;
-    desk.stroke(0.38, tip_m_s, 1000);
+    desk.wait(later);
+    desk.stroke(0.38, tip_m_s, rate_hz);
     let struck = desk.facts().into_iter().find_map(|fact| match fact.kind {
         FactKind::CueBallStruck { .. } => Some(fact.time_s),
         _ => None,
@@ -129,6 +135,51 @@ fn stylus_and_mouse_make_the_same_stroke() {
             let angle = mouse.angle_to(stylus).to_degrees();
             assert!(angle.abs() < 0.5, "{hand_m_s} m/s: {angle}°");
         }
+    }
+}
+
+/// Mean and deviation of a hundred values, the deviation as a share of the mean.
+fn spread(values: &[f64]) -> (f64, f64) {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    (mean, relative_deviation(values.iter().copied()))
+}
+
+#[test]
+fn a_hundred_strokes_by_mouse_and_a_hundred_by_stylus_are_as_hard_and_as_straight() {
+    let reach = ReachSettings::default();
+    let gain = reach.scale * reach.stroke_gain;
+    println!("tip m/s | ball by mouse m/s, spread, degrees | ball by stylus m/s, spread, degrees");
+    for hand_m_s in [0.2, 1.0] {
+        let mouse: Vec<(DVec2, f64, Aim)> = (0..100_u64)
+            .map(|k| {
+                let rate_hz = RATES_HZ[k as usize % RATES_HZ.len()];
+                mouse_stroke_at(hand_m_s * gain, rate_hz, k / 3 % 17)
+            })
+            .collect();
+        let (_, tip_m_s, aim) = mouse[0];
+        let ready = drawn_back(HandModel::ARM, &aim);
+        let stylus = strokes(&ready, tip_m_s / gain, 100);
+        let along = DVec2::from_angle(aim.azimuth_rad);
+        // Root mean square of the directions off the aim.
+        let off = |ways: &[DVec2]| {
+            let square = |way: &DVec2| along.angle_to(*way).to_degrees().powi(2);
+            (ways.iter().map(square).sum::<f64>() / ways.len() as f64).sqrt()
+        };
+        let by_mouse: Vec<DVec2> = mouse.iter().map(|(ball, ..)| *ball).collect();
+        let by_stylus: Vec<DVec2> = stylus.iter().map(|felt| felt.ball.truncate()).collect();
+        let speeds = |ways: &[DVec2]| ways.iter().map(|way| way.length()).collect::<Vec<f64>>();
+        let (mouse, stylus) = (spread(&speeds(&by_mouse)), spread(&speeds(&by_stylus)));
+        let (off_mouse, off_stylus) = (off(&by_mouse), off(&by_stylus));
+        println!(
+            "{tip_m_s:.2} | {:.3}, {:.2} %, {off_mouse:.3} | {:.3}, {:.2} %, {off_stylus:.3}",
+            mouse.0,
+            100.0 * mouse.1,
+            stylus.0,
+            100.0 * stylus.1,
+        );
+        assert!((stylus.0 / mouse.0 - 1.0).abs() < 0.05);
+        assert!(mouse.1 < 0.05 && stylus.1 < 0.05);
+        assert!(off_mouse < 0.5 && off_stylus < 0.5);
     }
 }
 
