@@ -3,7 +3,8 @@
 
 use super::ports::{Orders, ServoPorts, TickTold};
 use hapticbillard::haptic::{
-    Anchors, ButtonEdge, Buttons, Device, Force, HapticScene, Servo, ServoReport, StylusSample,
+    Anchors, ButtonEdge, Buttons, Device, DeviceState, Force, HapticScene, Servo, ServoReport,
+    StylusSample,
 };
 use hapticbillard::units::Seconds;
 
@@ -19,7 +20,8 @@ pub struct Body {
     anchors: Anchors,
     stiffness_n_m: f64,
     stiffness_wanted_n_m: f64,
-    held: Buttons,
+    /// None before the first reading: what is down then was pressed for somebody else.
+    held: Option<Buttons>,
     /// Of the newest balls.
     serial: u64,
     /// Of this turn [ns].
@@ -39,7 +41,7 @@ impl Body {
             anchors: Anchors::default(),
             stiffness_n_m: stiffness_max_n_m,
             stiffness_wanted_n_m: stiffness_max_n_m,
-            held: Buttons::default(),
+            held: None,
             serial: 0,
             late_ns: 0,
         }
@@ -69,7 +71,12 @@ impl Body {
     pub fn turn(&mut self, dt: Seconds) -> &ServoReport {
         self.hear(dt);
         let state = self.device.read(dt);
-        self.anchors.step(&state, self.ports.signs.leads());
+        // Where no window opens a wheel, the rear button holds nothing.
+        let seen = match self.ports.buttons {
+            Some(_) => state,
+            None => DeviceState { buttons: state.buttons.without(Buttons::REAR), ..state },
+        };
+        self.anchors.step(&seen, self.ports.signs.leads());
         let Orders { effects, reach, .. } = self.ports.orders.output_buffer();
         self.anchors.apply(effects, *reach, &mut self.scene);
         let force = self.servo.tick(&state, &self.scene, dt);
@@ -106,8 +113,8 @@ impl Body {
     }
 
     fn tell_buttons(&mut self, buttons: Buttons, tick: u64) {
-        let (pressed, released) = buttons.edges(self.held);
-        self.held = buttons;
+        let Some(held) = self.held.replace(buttons) else { return };
+        let (pressed, released) = buttons.edges(held);
         for bit in 0..u8::BITS {
             let button = Buttons(1 << bit);
             for (edges, down) in [(pressed, true), (released, false)] {

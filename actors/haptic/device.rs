@@ -145,7 +145,9 @@ pub fn open(wanted: &HapticDevice) -> Result<Option<Opened>, NoDevice> {
         }
         HapticDevice::Recorded(file) => {
             let recording = recording::load(Path::new(file))?;
-            Ok(Some(Opened::new(RecordedDevice::new(Arc::new(recording)))))
+            let device = RecordedDevice::new(Arc::new(recording));
+            // Whoever held it meant no menus of today.
+            Ok(Some(Opened { points: false, ..Opened::new(device) }))
         }
         HapticDevice::Haply(address) => {
             let address = address.as_deref().unwrap_or(haply::ADDRESS);

@@ -132,7 +132,6 @@ impl<'a> Desk<'a> {
         };
         desk.speak();
         desk.lobby.resize(desk.size());
-        desk.haptic = desk.lobby.menu().map(|menu| menu.settings.haptic);
         if let Some(problem) = setup.keys.1 {
             let said = Words::new(desk.spoken).fill("keys_bad", "problem", &problem);
             desk.said = Some((said, now + SAID_LONG));
@@ -340,7 +339,8 @@ impl<'a> Desk<'a> {
     fn begin(&mut self, again: bool) -> Result<(), Error> {
         self.keep();
         // The device is the game's.
-        (self.game, self.stylus) = (None, None);
+        self.game = None;
+        self.drop_stylus();
         let language = self.spoken;
         let settings = self.lobby.menu().map(|menu| &menu.settings);
         let prepared = self.host.prepare(settings, language, again)?;

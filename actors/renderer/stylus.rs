@@ -52,7 +52,11 @@ impl DeskStylus {
 
     /// What it says to a window of this size [pixels] since the last time.
     pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
-        let state = self.report.read().sample.device;
-        self.port.says(&state, mouse, window)
+        let report = self.report.read();
+        // Before the first tick nothing was read.
+        if report.counters.ticks == 0 {
+            return Vec::new();
+        }
+        self.port.says(&report.sample.device, mouse, window)
     }
 }

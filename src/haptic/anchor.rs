@@ -4,7 +4,7 @@
 //! Both are made in the servo's own tick, from the place where the stylus is in the tick in which
 //! they begin: what is felt and what is reckoned with is the same place.
 
-use super::device::{Buttons, DeviceState};
+use super::device::{Buttons, DeviceState, DeviceStatus};
 use super::effect::{EFFECTS_MAX, Effect, EffectSet};
 use super::scene::{HapticScene, Reach};
 use glam::DVec3;
@@ -44,7 +44,7 @@ pub enum Anchor {
 }
 
 /// Begins and ends anchors, tick by tick.
-#[derive(Debug, Default, Clone)]
+#[derive(Debug, Clone)]
 pub struct Anchors {
     now: Option<Anchor>,
     leads: Leads,
@@ -53,9 +53,23 @@ pub struct Anchors {
     changes: u32,
 }
 
+impl Default for Anchors {
+    /// Nothing holds the hand; a button that is down at first was pressed for something else.
+    fn default() -> Self {
+        Anchors { now: None, leads: Leads::default(), was_down: true, changes: 0 }
+    }
+}
+
 impl Anchors {
-    /// One tick: what holds the hand now.
+    /// One tick: what holds the hand now. A device that is lost or says no numbers is held by
+    /// nothing.
     pub fn step(&mut self, device: &DeviceState, leads: Leads) -> Option<Anchor> {
+        if device.status == DeviceStatus::Lost || !device.is_finite() {
+            let was_held = self.now.take().is_some();
+            self.changes = self.changes.wrapping_add(u32::from(was_held));
+            (self.leads, self.was_down) = (leads, true);
+            return None;
+        }
         let is_down = device.buttons.has(Buttons::REAR);
         let was_down = std::mem::replace(&mut self.was_down, is_down);
         let is_pressed = is_down && !was_down;
@@ -200,6 +214,24 @@ mod tests {
         let slope = (gentle.x - firm.x) / (outside.x - inside.x);
         assert!(-0.15 < gentle.x && gentle.x < 0.0, "{gentle}");
         assert!(2.0 * RETURN_STIFFNESS_N_M < slope, "{slope} N/m");
+    }
+
+    #[test]
+    fn a_device_that_is_lost_or_says_no_numbers_is_held_by_nothing() {
+        let mut anchors = Anchors::default();
+        let free = DeviceState::default();
+        let rear = DeviceState { buttons: Buttons::REAR, ..free };
+        // Pressed before anybody looked.
+        assert_eq!(anchors.step(&rear, Leads::Cue), None);
+        let lost = DeviceState { status: DeviceStatus::Lost, ..rear };
+        let nan = DeviceState { position: DVec3::NAN, ..rear };
+        for broken in [lost, nan] {
+            anchors.step(&free, Leads::Camera);
+            assert!(anchors.step(&free, Leads::Camera).is_some());
+            assert_eq!(anchors.step(&broken, Leads::Camera), None);
+            let elsewhere = DeviceState { position: DVec3::Y, ..rear };
+            assert_eq!(anchors.step(&elsewhere, Leads::Camera), Some(Anchor::Camera(DVec3::Y)));
+        }
     }
 
     #[test]

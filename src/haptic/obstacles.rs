@@ -80,7 +80,7 @@ impl Obstacles<'_> {
 
     /// Where a sphere comes to that goes from `from` to `to` in steps so short that it does not get
     /// through a face, each of which moves it out of whatever it is in. The normals of what was
-    /// touched last go to `each`.
+    /// touched go to `each`, the last at the end.
     pub fn swept(
         &self,
         from: DVec3,
@@ -96,7 +96,7 @@ impl Obstacles<'_> {
         let step = (to - from) / count;
         let mut centre = from;
         for _ in 1..count as u32 {
-            centre = self.pushed_out(centre + step, radius_m, side, |_| ());
+            centre = self.pushed_out(centre + step, radius_m, side, &mut each);
         }
         // A step that is the whole way ends just there.
         let last = if count == 1.0 { to } else { centre + step };

@@ -72,7 +72,8 @@ impl Workspace {
             azimuth_rad: 0.0,
             elevation_rad: 0.0,
             stroke: None,
-            was_down: false,
+            // What is down at first was pressed for something else.
+            was_down: true,
             away: DVec3::ZERO,
             away_s: 0.0,
         }
@@ -107,7 +108,7 @@ impl Workspace {
         let pivot = self.laid.filter(|_| !is_new).map_or(reach.pivot, |laid| laid.pivot);
         self.laid = Some(Reach { pivot, ..*reach });
 
-        let mut force = edges(device.position, settings);
+        let mut force = if reach.turns { edges(device.position, settings) } else { DVec3::ZERO };
         if reach.turns && self.stroke.is_none() {
             self.turn(device.position, settings, dt);
         }

@@ -40,6 +40,8 @@ pub struct Servo {
     tip: Tip,
     proxy: Proxy,
     lead: Lead,
+    /// How much of what is touched is felt.
+    solid: f64,
     transient: Transient,
     safety: Safety,
     report: ServoReport,
@@ -57,6 +59,7 @@ impl Servo {
             tip: Tip::default(),
             proxy: Proxy::default(),
             lead: Lead::default(),
+            solid: 1.0,
             transient: Transient::default(),
             safety: Safety::new(&settings),
             report: ServoReport { stiffness_factor: 1.0, ..ServoReport::default() },
@@ -164,7 +167,10 @@ impl Servo {
         let damping = self.damping(pulled);
         let back = placed.direction * self.lead.offset_m;
         let recoil = settings.coupling.recoil * stiffness * placed.in_device(back);
-        let touched = if reach.solid { spring + damping + recoil } else { DVec3::ZERO };
+        // What was not felt comes back slowly: the hand may be deep in something.
+        let fade_s = settings.safety.fade_s.max(dt);
+        self.solid = if reach.solid { (self.solid + dt / fade_s).min(1.0) } else { 0.0 };
+        let touched = (spring + damping + recoil) * self.solid;
 
         self.tell(reach, &placed, pulled.length());
         Felt {

@@ -41,7 +41,7 @@ impl Pointing {
 /// What a stylus says as a mouse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StylusSays {
-    /// It points here [pixels].
+    /// It points here [pixels], in the window or beside it.
     Points(DVec2),
     /// The front button is the left button of a mouse.
     Button {
@@ -55,6 +55,8 @@ pub enum StylusSays {
         /// Pressed, not released.
         down: bool,
     },
+    /// It is gone: whatever it held is let go, and nothing is meant by that.
+    Lost,
 }
 
 /// A stylus before a window. Of its places only the newest counts, of its buttons every edge.
@@ -79,7 +81,6 @@ impl StylusMouse {
         let is_there = state.status != DeviceStatus::Lost && state.is_finite();
         if is_there {
             let wanted = Pointing::on(window, workspace_m).at(state.position, state.pointing());
-            let wanted = wanted.clamp(DVec2::ZERO, (window - DVec2::ONE).max(DVec2::ZERO));
             let is_near = |place: DVec2| place.distance(wanted) <= TREMBLE * window.y;
             if !self.place.is_some_and(is_near) {
                 // The first place is where it lay: it has not pointed yet.
@@ -91,15 +92,18 @@ impl StylusMouse {
             said.extend(self.edge(button, down));
         }
         if !is_there {
-            self.place = None;
-            for button in [Buttons::FRONT, Buttons::REAR] {
-                said.extend(self.edge(button, false));
-            }
+            said.extend(self.let_go());
         }
         said
     }
 
-    /// Where it points [pixels], once it has been seen.
+    /// The device is another one, or gone: nothing is held any more, and it has pointed nowhere.
+    pub fn let_go(&mut self) -> Option<StylusSays> {
+        let was = std::mem::take(self);
+        (was.place.is_some() || was.held != Buttons::default()).then_some(StylusSays::Lost)
+    }
+
+    /// Where it points [pixels], once it has been seen; it may be outside of the window.
     pub fn place(&self) -> Option<DVec2> {
         self.place
     }
@@ -178,8 +182,8 @@ mod tests {
         // The same press again is none.
         assert!(mouse.hear(&state, press(Buttons::REAR), WINDOW, OMNI_M).is_empty());
         let lost = DeviceState { status: DeviceStatus::Lost, ..state };
-        let rear = StylusSays::Rear { down: false };
-        assert_eq!(mouse.hear(&lost, None, WINDOW, OMNI_M), [rear]);
+        assert_eq!(mouse.hear(&lost, None, WINDOW, OMNI_M), [StylusSays::Lost]);
+        assert!(mouse.hear(&lost, None, WINDOW, OMNI_M).is_empty());
         let nan = DeviceState { position: DVec3::NAN, ..state };
         assert!(mouse.hear(&nan, None, WINDOW, OMNI_M).is_empty());
     }

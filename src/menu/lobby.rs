@@ -84,6 +84,8 @@ pub struct Lobby {
     wheel: Option<Wheel>,
     /// The game has heard that a stylus clicks, and not yet that it lets go.
     has_told_click: bool,
+    /// The eye is led by hand.
+    is_free: bool,
 }
 
 impl Lobby {
@@ -108,6 +110,7 @@ impl Lobby {
             wheel_page: WheelPage::shipped().ok(),
             wheel: None,
             has_told_click: false,
+            is_free: false,
         }
     }
 
@@ -200,6 +203,7 @@ impl Lobby {
     /// otherwise it is not over a game that goes on.
     pub fn see(&mut self, view: &HumanView) -> Vec<Order> {
         (self.mode, self.looks_on) = (view.mode, view.looks_on);
+        self.is_free = view.look.free;
         let is_paused = view.mode == HumanMode::Paused;
         self.is_resuming &= is_paused;
         if !is_paused && self.game == Game::Running && self.is_menu_open() {
@@ -233,7 +237,7 @@ impl Lobby {
             RawInput::Pad(report) => self.pad(report),
             RawInput::FocusLost => {
                 self.controls.forget();
-                (self.dragged, self.wheel) = (None, None);
+                (self.dragged, self.wheel, self.has_told_click) = (None, None, false);
                 // What sticks do meanwhile nobody hears.
                 self.pad = PadState::default();
                 self.move_menu(MenuInput::Never);
@@ -404,6 +408,7 @@ impl Lobby {
     /// something else in their hands.
     fn lose_pad(&mut self) -> Vec<Order> {
         self.controls.forget();
+        self.wheel = None;
         self.is_by_pad = false;
         self.move_menu(MenuInput::Never);
         if self.game != Game::Running {
@@ -453,7 +458,7 @@ impl Lobby {
         if let Some(menu) = &mut self.menu {
             menu.open(page);
         }
-        (self.dragged, self.wheel) = (None, None);
+        (self.dragged, self.wheel, self.has_told_click) = (None, None, false);
         // The game is told that everything is let go.
         self.settle();
     }
@@ -462,7 +467,7 @@ impl Lobby {
         if let Some(menu) = &mut self.menu {
             menu.close();
         }
-        self.dragged = None;
+        (self.dragged, self.wheel, self.has_told_click) = (None, None, false);
         self.settle();
     }
 }

@@ -75,19 +75,28 @@ impl WheelPage {
 pub struct Wheel {
     page: WheelPage,
     centre: DVec2,
+    /// Where the pointer was when it opened [pixels], and is now in the ring.
+    from: DVec2,
     pointer: DVec2,
     height: f64,
     meant: Option<usize>,
 }
 
 impl Wheel {
-    /// Opens round a pointer [pixels] in a window of this height [pixels].
-    pub fn open(page: WheelPage, at: DVec2, height: f64) -> Self {
-        Wheel { page, centre: at, pointer: at, height, meant: None }
+    /// Opens round a pointer [pixels] in a window of this size [pixels]; all of it is inside, even
+    /// where the pointer is not.
+    pub fn open(page: WheelPage, at: DVec2, window: DVec2) -> Self {
+        let margin = DVec2::splat((RING + ITEM) * window.y).min(0.5 * window);
+        let centre = at.clamp(margin, window - margin);
+        Wheel { page, centre, from: at, pointer: centre, height: window.y, meant: None }
     }
 
-    /// The pointer is here now [pixels].
+    /// The pointer is here now [pixels], as it was when the wheel was opened.
     pub fn point(&mut self, at: DVec2) {
+        self.touch(self.centre + (at - self.from));
+    }
+
+    fn touch(&mut self, at: DVec2) {
         self.pointer = at;
         let away = at - self.centre;
         if HUB * self.height < away.length() {
@@ -103,12 +112,12 @@ impl Wheel {
     pub fn push(&mut self, by: DVec2) {
         // One that is pushed without seeing it does not get lost outside.
         let away = (self.pointer + by - self.centre).clamp_length_max(RING * self.height);
-        self.point(self.centre + away);
+        self.touch(self.centre + away);
     }
 
     /// A stick leans to the right and down, each from −1 to 1.
     pub fn lean(&mut self, to: DVec2) {
-        self.point(self.centre + to.clamp_length_max(1.0) * (RING * self.height));
+        self.touch(self.centre + to.clamp_length_max(1.0) * (RING * self.height));
     }
 
     /// The next action clockwise is meant, or the one before.
@@ -161,7 +170,7 @@ mod tests {
 
     fn wheel() -> Wheel {
         let page = WheelPage::parse(r#"actions = ["pause", "help", "camera", "safety"]"#).unwrap();
-        Wheel::open(page, AT, 1000.0)
+        Wheel::open(page, AT, DVec2::new(1600.0, 1000.0))
     }
 
     #[test]
@@ -183,6 +192,18 @@ mod tests {
         }
         let (_, at, radius, is_meant) = wheel.items().nth(3).unwrap();
         assert!(at.x < AT.x - radius && is_meant);
+    }
+
+    #[test]
+    fn a_wheel_opened_from_beside_the_window_is_inside_and_can_be_turned() {
+        let page = WheelPage::parse(r#"actions = ["pause", "help", "camera", "safety"]"#).unwrap();
+        let (window, outside) = (DVec2::new(1600.0, 1000.0), DVec2::new(-300.0, 1400.0));
+        let mut wheel = Wheel::open(page, outside, window);
+        for (_, at, radius, _) in wheel.items() {
+            assert!(DVec2::splat(radius).cmple(at).all() && at.cmple(window - radius).all());
+        }
+        wheel.point(outside + DVec2::new(0.0, 60.0));
+        assert_eq!(wheel.choice(), Some(Action::Camera));
     }
 
     #[test]

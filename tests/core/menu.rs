@@ -101,7 +101,7 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
             assert!(has(&format!("title_{}", page.title)), "{}", page.title);
             assert!(page.items.iter().all(|item| has(&item.text)), "{}", page.name);
         }
-        let wheel = Wheel::open(WheelPage::shipped().unwrap(), DVec2::ZERO, 720.0);
+        let wheel = Wheel::open(WheelPage::shipped().unwrap(), DVec2::ZERO, DVec2::splat(720.0));
         assert!(wheel.items().all(|(action, ..)| has(&format!("wheel_{}", action.name()))));
         // Whatever is set has a name: no line shows a key.
         let mut menu = menu();

@@ -297,15 +297,14 @@ fn every_edge_of_a_button_is_told_in_order() {
     let (plan, wires) = wired();
     let (watch, mut heard) = Watch::default().with_buttons();
     let Started { seat, .. } = Seat::start_watched(plan, watch).unwrap();
+    wait_for("a tick", || seat.timing().ticks() > 0);
     for held in [1, 3, 2, 0, 1, 0] {
         wires.held.store(held, Ordering::SeqCst);
         let ticks = seat.timing().ticks();
         wait_for("two ticks", || seat.timing().ticks() >= ticks + 2);
     }
-    let mut edges = Vec::new();
-    while let Ok(edge) = heard.pop() {
-        edges.push((edge.button.0, edge.down));
-    }
+    let edges: Vec<(u8, bool)> =
+        std::iter::from_fn(|| heard.pop().ok()).map(|edge| (edge.button.0, edge.down)).collect();
     assert_eq!(edges, [(1, true), (2, true), (1, false), (2, false), (1, true), (1, false)]);
 }
 

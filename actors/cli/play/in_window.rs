@@ -78,6 +78,7 @@ pub fn play_in_window(
         args,
         stage,
         is_first: begins,
+        is_set: !begins,
         record: None,
         recorder: None,
         telemetry: None,
@@ -166,6 +167,8 @@ struct House<'a> {
     stage: Stage,
     /// The next game is the one that the command line asks for.
     is_first: bool,
+    /// The stage is as it was set in the menus.
+    is_set: bool,
     record: Option<PathBuf>,
     recorder: Option<DeviceRecorder>,
     telemetry: Option<Telemetry>,
@@ -183,7 +186,7 @@ impl Host for House<'_> {
     ) -> Result<Prepared, Error> {
         let is_first = std::mem::take(&mut self.is_first);
         match settings.filter(|_| !again) {
-            Some(settings) => self.stage = stage_of(settings, language)?,
+            Some(settings) => (self.stage, self.is_set) = (stage_of(settings, language)?, true),
             None if !is_first => {
                 let overrides = self.stage.header().overrides;
                 self.stage = self.stage.with(Overrides { seed: Some(new_seed()), ..overrides });
@@ -212,6 +215,7 @@ impl Host for House<'_> {
     fn stylus(&mut self, settings: &Settings) -> Result<Option<DeskStylus>, Error> {
         // A scene of the command line may have a device that is not set.
         let plan = match settings.haptic {
+            HapticChoice::None if self.is_set => return Ok(None),
             HapticChoice::None => self.stage.haptic()?,
             _ => stage_of(settings, Language::English)?.haptic()?,
         };

@@ -3,8 +3,8 @@
 use super::super::hud;
 use super::Desk;
 use glam::DVec2;
-use hapticbillard::input::{PadInput, RawInput};
-use hapticbillard::menu::Pointed;
+use hapticbillard::input::{PadInput, RawInput, StylusSays};
+use hapticbillard::menu::{Order, Pointed};
 use hapticbillard::renderer::MenuLayout;
 use winit::event_loop::ControlFlow;
 
@@ -37,7 +37,7 @@ impl Desk<'_> {
             (None, None) => return,
         };
         for said in said {
-            self.is_by_stylus = true;
+            self.is_by_stylus = said != StylusSays::Lost;
             let place = self.stylus_mouse.place().unwrap_or(0.5 * window);
             let (pointed, picked) = (self.pointed(), self.picked());
             let orders = self.lobby.hear_stylus(said, place, pointed, picked);
@@ -55,9 +55,23 @@ impl Desk<'_> {
         }
     }
 
+    /// No stylus is heard any more until another servo has its device; what it held is let go.
+    pub(super) fn drop_stylus(&mut self) {
+        self.stylus = None;
+        self.is_by_stylus = false;
+        if let Some(lost) = self.stylus_mouse.let_go() {
+            for order in self.lobby.hear_stylus(lost, DVec2::ZERO, None, None) {
+                if let Order::Tell(input) = order {
+                    self.tell(input);
+                }
+            }
+        }
+    }
+
     /// Menus hear the stylus of the device that is set, while no game has it.
     pub(super) fn take_up_stylus(&mut self) {
-        self.stylus = None;
+        self.drop_stylus();
+        self.haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
         let Some(menu) = self.lobby.menu() else { return };
         match self.host.stylus(&menu.settings) {
             Ok(stylus) => self.stylus = stylus,
@@ -71,7 +85,10 @@ impl Desk<'_> {
     /// Where whatever was moved last points [pixels], unless it belongs to a game.
     fn place(&self) -> Option<(f64, f64)> {
         match self.stylus_mouse.place().filter(|_| self.is_by_stylus) {
-            Some(place) => Some((place.x, place.y)),
+            Some(place) => {
+                let place = place.clamp(DVec2::ZERO, self.size() - DVec2::ONE);
+                Some((place.x, place.y))
+            }
             None => self.pointer.place(),
         }
     }
@@ -79,7 +96,7 @@ impl Desk<'_> {
     /// The same, where the window shows it: the mouse has an arrow of its own.
     pub(super) fn pointer_shown(&self) -> Option<[f64; 2]> {
         let is_shown = self.is_by_stylus && self.lobby.is_pointed_at();
-        self.stylus_mouse.place().filter(|_| is_shown).map(|place| place.to_array())
+        self.place().filter(|_| is_shown).map(|(x, y)| [x, y])
     }
 
     /// The line of the menu under a free pointer.

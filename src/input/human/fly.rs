@@ -71,6 +71,9 @@ impl Human {
 
     /// A stylus points here in the window, in its heights from its middle: a ball in hand is there.
     pub(super) fn pointed_at(&mut self, at: DVec2) {
+        if self.camera.is_free() {
+            return;
+        }
         let on_bed = self.camera.pose().on_level(at, self.radius_m);
         if let (Stage::Placing(placing), Some(at), false) = (&mut self.stage, on_bed, self.paused) {
             placing.hold_at(at, self.table.bed.as_ref(), self.radius_m);

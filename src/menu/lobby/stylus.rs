@@ -20,7 +20,8 @@ impl Lobby {
     pub fn is_pointed_at(&self) -> bool {
         let mode =
             matches!(self.mode, HumanMode::Placing | HumanMode::Choosing | HumanMode::Paused);
-        self.is_menu_open() || self.wheel.is_some() || (self.game == Game::Running && mode)
+        let is_in_game = self.game == Game::Running && mode && !self.is_free;
+        self.is_menu_open() || self.wheel.is_some() || is_in_game
     }
 
     /// A stylus that points to a place [pixels] says something; `pointed` is the line of a menu
@@ -35,11 +36,12 @@ impl Lobby {
         let mut orders = match said {
             StylusSays::Points(at) => self.stylus_points(at, pointed),
             StylusSays::Button { down, .. } => self.stylus_button(down, pointed, picked),
-            StylusSays::Rear { down: true } => {
-                self.open_wheel(place);
-                Vec::new()
-            }
+            StylusSays::Rear { down: true } => self.open_wheel(place),
             StylusSays::Rear { down: false } => self.close_wheel(),
+            StylusSays::Lost => {
+                self.wheel = None;
+                self.stylus_button(false, None, None)
+            }
         };
         orders.extend(self.settle());
         orders
@@ -53,7 +55,7 @@ impl Lobby {
         if self.is_menu_open() {
             return self.point(pointed);
         }
-        if self.game != Game::Running || self.mode != HumanMode::Placing {
+        if self.game != Game::Running || self.mode != HumanMode::Placing || self.is_free {
             return Vec::new();
         }
         let from_middle = (at - 0.5 * self.window) / self.window.y.max(1.0);
@@ -72,13 +74,13 @@ impl Lobby {
             return self.button(Button::Left, down, pointed);
         }
         if !down {
-            self.button(Button::Left, false, None);
+            self.dragged = None;
             let was_told = std::mem::take(&mut self.has_told_click);
             let up = Order::Tell(HandInput::Act { action: Action::Stroke, down: false });
             return if was_told { vec![up] } else { Vec::new() };
         }
         match (self.game, self.mode, picked) {
-            _ if self.wheel.is_some() => Vec::new(),
+            _ if self.wheel.is_some() || self.is_free => Vec::new(),
             (Game::Running, HumanMode::Choosing, Some(option)) => {
                 vec![Order::Tell(HandInput::Picked { option })]
             }
@@ -90,10 +92,12 @@ impl Lobby {
         }
     }
 
-    /// Opens the wheel round a place of the window, where a game goes on.
-    pub(super) fn open_wheel(&mut self, place: DVec2) {
+    /// Opens the wheel round a place of the window, where a game goes on. What devices say goes to
+    /// the wheel then, so the game hears that everything is let go.
+    pub(super) fn open_wheel(&mut self, place: DVec2) -> Vec<Order> {
         let page = self.wheel_page.clone().filter(|_| self.is_playing());
-        self.wheel = page.map(|page| Wheel::open(page, place, self.window.y));
+        self.wheel = page.map(|page| Wheel::open(page, place, self.window));
+        self.wheel.iter().map(|_| Order::Tell(HandInput::FocusLost)).collect()
     }
 
     /// Closes it, and does what is meant.
@@ -110,10 +114,7 @@ impl Lobby {
     /// The key of the wheel: it is open while that is held.
     pub(super) fn act_on_wheel(&mut self, edge: Edge) -> Vec<Order> {
         match edge {
-            Edge::Pressed => {
-                self.open_wheel(0.5 * self.window);
-                Vec::new()
-            }
+            Edge::Pressed => self.open_wheel(0.5 * self.window),
             Edge::Repeated => Vec::new(),
             Edge::Released => self.close_wheel(),
         }
