@@ -45,10 +45,10 @@ fn is_under_way(path: &Path) -> bool {
     is_draft && fs::read_to_string(path).is_ok_and(|text| text.contains("\n{\"hash\""))
 }
 
-/// Plays many games into `folder` and sends a signal while one is under way.
 /// So many whole recordings of an interrupted match are replayed.
 const WHOLE_MAX: u32 = 30;
 
+/// Plays many games into `folder` and sends a signal while one is under way.
 fn match_that_gets(signal: Signal, name: &str) -> Output {
     let folder = folder(name);
     let games = ["match", "--games", "5000", "--seed", "3", "--record", folder.to_str().unwrap()];
