@@ -62,12 +62,7 @@ impl FeltScreen {
     pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
         let Some(stylus) = &mut self.setup.stylus else { return Vec::new() };
         self.setup.report.update();
-        let report = self.setup.report.output_buffer();
-        // Before the first tick nothing was read.
-        if report.counters.ticks == 0 {
-            return Vec::new();
-        }
-        stylus.says(&report.sample.device, mouse, window)
+        stylus.says(self.setup.report.output_buffer(), mouse, window)
     }
 
     /// Takes what is new at `now_s` on the window's clock.

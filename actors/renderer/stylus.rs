@@ -3,7 +3,7 @@
 
 use crate::haptic::{NoServo, Opened, Plan, Seat, Started, Watch};
 use glam::{DVec2, DVec3};
-use hapticbillard::haptic::{ButtonEdge, DeviceState, Leads, ServoReport};
+use hapticbillard::haptic::{ButtonEdge, Leads, ServoReport};
 use hapticbillard::input::{StylusMouse, StylusSays};
 use std::sync::Arc;
 
@@ -16,15 +16,20 @@ pub struct StylusPort {
 }
 
 impl StylusPort {
-    /// What it says, being like this, to a window of this size [pixels] since the last time.
+    /// What it says by its servo's newest tick, to a window of this size [pixels], since the last
+    /// time.
     pub fn says(
         &mut self,
-        state: &DeviceState,
+        report: &ServoReport,
         mouse: &mut StylusMouse,
         window: DVec2,
     ) -> Vec<StylusSays> {
+        // Before the first tick nothing was read.
+        if report.counters.ticks == 0 {
+            return Vec::new();
+        }
         let edges = std::iter::from_fn(|| self.buttons.pop().ok());
-        mouse.hear(state, edges, window, self.workspace_m)
+        mouse.hear(&report.sample.device, edges, window, self.workspace_m)
     }
 }
 
@@ -52,11 +57,6 @@ impl DeskStylus {
 
     /// What it says to a window of this size [pixels] since the last time.
     pub fn says(&mut self, mouse: &mut StylusMouse, window: DVec2) -> Vec<StylusSays> {
-        let report = self.report.read();
-        // Before the first tick nothing was read.
-        if report.counters.ticks == 0 {
-            return Vec::new();
-        }
-        self.port.says(&report.sample.device, mouse, window)
+        self.port.says(self.report.read(), mouse, window)
     }
 }

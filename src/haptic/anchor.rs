@@ -73,20 +73,14 @@ impl Anchors {
         let is_down = device.buttons.has(Buttons::REAR);
         let was_down = std::mem::replace(&mut self.was_down, is_down);
         let is_pressed = is_down && !was_down;
-        let at = device.position;
         let next = match (leads, self.now) {
-            (_, Some(Anchor::Wheel(at))) if is_down => Some(Anchor::Wheel(at)),
-            _ if is_pressed => Some(Anchor::Wheel(at)),
-            (Leads::Camera, Some(Anchor::Camera(at))) => Some(Anchor::Camera(at)),
-            (Leads::Camera, _) => Some(Anchor::Camera(at)),
+            (_, Some(Anchor::Wheel(_))) if is_down => self.now,
+            _ if is_pressed => Some(Anchor::Wheel(device.position)),
+            (Leads::Camera, Some(Anchor::Camera(_))) => self.now,
+            (Leads::Camera, _) => Some(Anchor::Camera(device.position)),
             (Leads::Cue | Leads::Pointer, _) => None,
         };
-        let is_same = match (self.now, next) {
-            (None, None) => true,
-            (Some(before), Some(next)) => before == next,
-            _ => false,
-        };
-        if !is_same {
+        if self.now != next {
             self.changes = self.changes.wrapping_add(1);
         }
         (self.now, self.leads) = (next, leads);

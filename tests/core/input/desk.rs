@@ -2,10 +2,12 @@
 
 use glam::DVec2;
 use hapticbillard::cast::Cast;
-use hapticbillard::events::{Command, Event, Fact, FactKind, Source, Topics, Turn, Verdict};
+use hapticbillard::events::{
+    Command, Event, Fact, FactKind, Source, Topics, Turn, TurnAfter, Verdict,
+};
 use hapticbillard::haptic::Leads;
 use hapticbillard::hash::StateHash;
-use hapticbillard::ids::BallId;
+use hapticbillard::ids::{BallId, PlayerId};
 use hapticbillard::input::feel::{ADDRESS_GAP_M, AIM_RAD_PER_HEIGHT, STROKE_M_PER_HEIGHT};
 use hapticbillard::input::{
     Button, HandInput, Human, HumanMode, HumanView, Key, RawInput, StylusWord,
@@ -16,7 +18,7 @@ use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
 use hapticbillard::tick::{
-    Delivered, Finished, Frame, FrameSource, Inflow, Outcome, Pace, Participant,
+    Delivered, End, Finished, Frame, FrameSource, Inflow, Outcome, Pace, Participant,
 };
 use hapticbillard::units::Tick;
 use std::sync::{Arc, Mutex};
@@ -263,6 +265,16 @@ impl Desk {
             _ => None,
         };
         self.heard().into_iter().filter_map(verdict).collect()
+    }
+
+    /// The game was played to its end, and the first player has pocketed a ball legally.
+    #[track_caller]
+    pub fn assert_won_or_lost(&self) {
+        assert_eq!(self.finished.as_ref().unwrap().end, End::Over);
+        let verdicts = self.verdicts();
+        let own = || verdicts.iter().filter(|verdict| verdict.player == Some(PlayerId::ONE));
+        assert!(own().any(|verdict| verdict.legal && !verdict.pocketed.is_empty()), "a pot");
+        assert_eq!(verdicts.last().unwrap().turn, TurnAfter::End);
     }
 
     /// How often the tip met the cue ball.

@@ -6,17 +6,15 @@ use crate::input::desk::Desk;
 use glam::{DVec2, DVec3};
 use hapticbillard::ai::{Goal, TableView2d, plan_shot};
 use hapticbillard::ball::POOL_RADIUS_M;
-use hapticbillard::events::{ShotKind, TurnAfter};
+use hapticbillard::events::ShotKind;
 use hapticbillard::haptic::simulated::Leg;
 use hapticbillard::haptic::{Buttons, ReachSettings};
-use hapticbillard::ids::PlayerId;
 use hapticbillard::input::{Action, HandInput, HumanMode, StylusSays};
 use hapticbillard::menu::{Lobby, Menu, Order, Pages, Pointed, Settings};
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use hapticbillard::scene::{Overrides, Scene};
 use hapticbillard::table::Table;
-use hapticbillard::tick::End;
 use hapticbillard::units::TICK_S;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
@@ -321,11 +319,7 @@ fn whole_game_by_stylus_only() {
     }
 
     let desk = seated.desk.as_mut().unwrap();
-    assert_eq!(desk.finished.as_ref().unwrap().end, End::Over);
-    let verdicts = desk.verdicts();
-    let own = || verdicts.iter().filter(|verdict| verdict.player == Some(PlayerId::ONE));
-    assert!(own().any(|verdict| verdict.legal && !verdict.pocketed.is_empty()), "a pot");
-    assert_eq!(verdicts.last().unwrap().turn, TurnAfter::End);
+    desk.assert_won_or_lost();
     assert!(strokes > 3, "there was a stroke after the pause, and one after the camera");
     assert!(desk.lobby.ended(true).is_empty());
     seated.lobby = Some(seated.desk.take().unwrap().lobby);

@@ -4,8 +4,7 @@ use super::desk::Desk;
 use glam::DVec2;
 use hapticbillard::ai::{Goal, TableView2d, plan_shot};
 use hapticbillard::ball::POOL_RADIUS_M;
-use hapticbillard::events::{ShotKind, TurnAfter};
-use hapticbillard::ids::PlayerId;
+use hapticbillard::events::ShotKind;
 use hapticbillard::input::feel::{
     AIM_RAD_PER_S, FINE, KEY_PULL_M_PER_S, KEY_SPEED_LEAST_M_S, KEY_SPEED_MOST_M_S,
     PLACING_M_PER_HEIGHT, PLACING_M_PER_S, PULL_MAX_M, STICK_PLACING, STICK_TURN, TRIGGER_BEGIN,
@@ -18,7 +17,7 @@ use hapticbillard::renderer::{MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use hapticbillard::scene::{Overrides, Scene};
 use hapticbillard::table::Table;
-use hapticbillard::tick::{End, Pace};
+use hapticbillard::tick::Pace;
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
@@ -321,11 +320,7 @@ pub fn whole_game(device: Device, port: PadPort) {
     }
 
     let desk = seated.desk.as_mut().unwrap();
-    assert_eq!(desk.finished.as_ref().unwrap().end, End::Over);
-    let verdicts = desk.verdicts();
-    let own = || verdicts.iter().filter(|verdict| verdict.player == Some(PlayerId::ONE));
-    assert!(own().any(|verdict| verdict.legal && !verdict.pocketed.is_empty()), "a pot");
-    assert_eq!(verdicts.last().unwrap().turn, TurnAfter::End);
+    desk.assert_won_or_lost();
     assert!(desk.orders.is_empty(), "{:?}", desk.orders);
     assert!(desk.lobby.ended(true).is_empty());
     assert_eq!(seated.choose("leave", None), [Order::Clear]);
