@@ -20,21 +20,28 @@ pub struct Physics {
     heard: Option<triple_buffer::Input<Arc<Snapshot>>>,
     /// The same for a hand.
     felt: Option<WorldPort>,
+    /// Where shots are filmed, and how many states were not filmed since the last one that was.
+    film: Option<(flume::Sender<Arc<Snapshot>>, u32)>,
 }
+
+/// One state in so many is filmed: 250 in a second.
+const FILMED: u32 = 4;
 
 impl Physics {
     /// Joins the simulation with the slots for its picture, if somebody draws one, for its sound,
-    /// if somebody listens, and for a hand, if somebody feels it.
+    /// if somebody listens, for a hand, if somebody feels it, and with a film of it.
     pub fn new(
         simulation: Simulation,
         world: Option<triple_buffer::Input<Arc<Snapshot>>>,
         heard: Option<triple_buffer::Input<Arc<Snapshot>>>,
         mut felt: Option<WorldPort>,
+        film: Option<flume::Sender<Arc<Snapshot>>>,
     ) -> Self {
         if let Some(felt) = &mut felt {
             felt.show(&simulation.snapshot(simulation.now_s()));
         }
-        Physics { simulation, world, heard, felt }
+        let film = film.map(|film| (film, 0));
+        Physics { simulation, world, heard, felt, film }
     }
 
     fn show(&mut self, moved: Result<Advanced, PhysicsError>) -> Moved {
@@ -46,6 +53,14 @@ impl Physics {
         if let Ok(advanced) = &moved {
             for slot in slots.into_iter().flatten() {
                 slot.write(advanced.table.clone());
+            }
+        }
+        if let (Some((film, left_out)), Ok(advanced)) = (&mut self.film, &moved) {
+            *left_out += 1;
+            if FILMED <= *left_out {
+                *left_out = 0;
+                // A window that draws nothing for long has a gap in its film, and nothing waits.
+                let _ = film.try_send(advanced.table.clone());
             }
         }
         if let (Some(felt), Ok(advanced)) = (&mut self.felt, &moved) {

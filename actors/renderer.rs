@@ -4,9 +4,13 @@
 //! ([`crate::event_manager::Sink`]), the world and the hand's view through slots, and what devices
 //! say goes out through a channel. What is drawn is decided by the core, `hapticbillard::renderer`.
 
+mod advice;
+
 mod desk;
 
 mod felt;
+
+mod film;
 
 mod game_thread;
 

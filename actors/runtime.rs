@@ -55,6 +55,8 @@ pub struct Setup {
     pub sinks: Vec<Sink>,
     /// Where the newest state of the world goes, for a picture.
     pub world: Option<triple_buffer::Input<Arc<Snapshot>>>,
+    /// Where every fourth state goes, in order, for a film. What does not fit is left out.
+    pub film: Option<flume::Sender<Arc<Snapshot>>>,
     /// What is heard. A game goes on without it; whoever plays is told.
     pub sound: Option<Heard>,
     /// What is felt, and at which device. A game goes on without it; whoever plays is told.
@@ -114,6 +116,7 @@ impl Setup {
             observers: Vec::new(),
             sinks: Vec::new(),
             world: None,
+            film: None,
             sound: None,
             haptic: None,
             physics_thread: false,
@@ -217,7 +220,7 @@ async fn play(cast: Cast, setup: Setup) -> Result<Finished, RunError> {
     let physics = Physics::prepare_with_mailbox(mailbox::bounded(MAILBOX));
     let physics_ref = physics.actor_ref().clone();
     crew.tell("physics", &physics_ref);
-    let body = Physics::new(simulation, setup.world, heard_world, felt_world);
+    let body = Physics::new(simulation, setup.world, heard_world, felt_world, setup.film);
     if setup.physics_thread {
         physics.spawn_in_thread(body);
     } else {

@@ -66,3 +66,6 @@ pub use stroke::{Stroke, TIP_SPEED_MAX_M_S, approach, resting_pose, withdrawal};
 
 mod player;
 pub use player::Player;
+
+mod adviser;
+pub use adviser::{Advice, Adviser, Question};

@@ -5,7 +5,7 @@
 
 mod computer;
 
-use crate::ai::Player;
+use crate::ai::{Adviser, Player};
 use crate::ball::POOL_RADIUS_M;
 use crate::ids::BallId;
 use crate::input::Human;
@@ -29,6 +29,8 @@ pub struct Cast {
     pub players: Vec<Player>,
     /// The hand at mouse and keyboard, if the scene has input and nobody stands in for it.
     pub human: Option<Human>,
+    /// Who tells that person what to play.
+    pub adviser: Option<Adviser>,
     /// Names of player 1 and player 2.
     pub names: Vec<String>,
 }
@@ -107,8 +109,9 @@ impl Cast {
             (Some(human), Some(foresight)) => Some(human.with_foresight(foresight)),
             (human, _) => human,
         };
+        let adviser = surroundings.adviser()?;
         let human = human.map(|human| if is_practice { human.for_practice() } else { human });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
-        Ok(Cast { table, simulation, referee, players, human, names })
+        Ok(Cast { table, simulation, referee, players, human, adviser, names })
     }
 }

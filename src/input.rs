@@ -35,7 +35,7 @@ pub use pad::{
 };
 
 mod view;
-pub use view::{CameraPose, HumanMode, HumanView, Look};
+pub use view::{CameraPose, HumanMode, HumanView, Look, View};
 
 pub mod feel;
 
@@ -45,6 +45,7 @@ pub use foresight::{AimAid, BallWay, Foresight};
 mod held;
 
 mod camera;
+pub use camera::Room;
 
 mod sight;
 pub(crate) use sight::ghost as first_met;
@@ -70,6 +71,9 @@ pub use pointing::{Pointing, StylusMouse, StylusSays};
 
 mod mouse_split;
 pub use mouse_split::{MouseSplit, Reader};
+
+mod tutor;
+pub use tutor::{Lesson, Tutor};
 
 mod led;
 pub use led::{Led, LedHuman};

@@ -15,7 +15,7 @@ mod notice;
 pub use notice::Notice;
 
 mod lobby;
-pub use lobby::{Lobby, Order, Pointed};
+pub use lobby::{Begin, Lobby, Order, Pointed};
 
 mod wheel;
 pub use wheel::{Wheel, WheelError, WheelPage};

@@ -8,7 +8,15 @@ mod draw_list;
 
 mod look;
 
+mod film;
+pub use film::{Film, Reel};
+
+mod mount;
+
 mod playhead;
+
+mod screening;
+pub use screening::Screening;
 
 mod shape;
 
@@ -43,6 +51,7 @@ pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
 pub use look::{BallLook, BallSet, ball_look};
 pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
 pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spread};
+pub use mount::Mount;
 pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};

@@ -17,6 +17,7 @@ pub const SCENES: &[(&str, &str)] = &[
     ("nine_ball", include_str!("../config/scenes/nine_ball.toml")),
     ("straight", include_str!("../config/scenes/straight.toml")),
     ("training", include_str!("../config/scenes/training.toml")),
+    ("tutorial", include_str!("../config/scenes/tutorial.toml")),
     ("free_play", include_str!("../config/scenes/free_play.toml")),
     ("snooker", include_str!("../config/scenes/snooker.toml")),
     ("three_cushion", include_str!("../config/scenes/three_cushion.toml")),
@@ -36,6 +37,7 @@ pub const MENUS: &[(&str, &str)] = &[
     ("keys_cue", include_str!("../config/menus/keys_cue.toml")),
     ("keys_say", include_str!("../config/menus/keys_say.toml")),
     ("keys_see", include_str!("../config/menus/keys_see.toml")),
+    ("keys_again", include_str!("../config/menus/keys_again.toml")),
     ("pause", include_str!("../config/menus/pause.toml")),
     ("over", include_str!("../config/menus/over.toml")),
 ];
@@ -51,6 +53,7 @@ pub const PROFILES: &[(&str, &str)] = &[
     ("choice", include_str!("../config/profiles/choice.toml")),
     ("camera", include_str!("../config/profiles/camera.toml")),
     ("pause", include_str!("../config/profiles/pause.toml")),
+    ("replay", include_str!("../config/profiles/replay.toml")),
 ];
 
 /// What keys and buttons mean, as TOML; see [`crate::input::Bindings`].

@@ -276,6 +276,7 @@ impl FeltMouse {
             | HandInput::Picked { .. }
             | HandInput::Aid(_)
             | HandInput::Points { .. }
+            | HandInput::Hold(_)
             | HandInput::Steering(_) => return,
         };
         self.say(heard);

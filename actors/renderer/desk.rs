@@ -1,8 +1,9 @@
 //! What happens in a window: devices, the menu, the game, the next picture.
 
+mod aids;
 mod devices;
+mod kept_picture;
 
-use super::encoded;
 use super::hud;
 use super::keys::{button, key, notches};
 use super::pointer::Pointer;
@@ -14,9 +15,9 @@ use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::{
-    Action, AimAid, Button, Controller, HandInput, HumanMode, RawInput, Steering, StylusMouse,
+    Action, AimAid, Button, Controller, HandInput, HumanMode, RawInput, Steering, StylusMouse, View,
 };
-use hapticbillard::menu::{HapticChoice, Lobby, Order};
+use hapticbillard::menu::{Begin, HapticChoice, Lobby, Order};
 use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuPanel, WheelPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
@@ -73,6 +74,8 @@ pub(super) struct Desk<'a> {
     /// What the window shows now; none if it must be drawn again.
     shown: Option<(DrawList, Hud)>,
     is_focused: bool,
+    /// From where the player likes to look.
+    view: View,
     /// A stylus that no game has, and what it is as a mouse.
     stylus: Option<DeskStylus>,
     stylus_mouse: StylusMouse,
@@ -123,6 +126,7 @@ impl<'a> Desk<'a> {
             said: None,
             shown: None,
             is_focused: false,
+            view: View::Usual,
             stylus: None,
             stylus_mouse: StylusMouse::default(),
             is_by_stylus: false,
@@ -137,9 +141,10 @@ impl<'a> Desk<'a> {
             desk.said = Some((said, now + SAID_LONG));
         }
         if setup.begins {
-            desk.begin(true)?
+            desk.begin(Begin::Again)?
         } else {
             desk.lobby.open_main();
+            desk.unkept = desk.lobby.welcome().then_some(now);
             desk.set_up_backdrop()?;
             desk.take_up_stylus();
         }
@@ -266,12 +271,15 @@ impl<'a> Desk<'a> {
             match order {
                 Order::Tell(input) => self.tell(input),
                 Order::Do(action) => self.act(action),
-                Order::Say(key) => {
-                    let words = Words::new(self.spoken);
-                    self.said = Some((words.get(key), Instant::now() + SAID));
+                Order::Say(key) => self.say(Words::new(self.spoken).get(key)),
+                Order::Replay(is_shown) => {
+                    self.game.iter_mut().for_each(|game| game.screen(is_shown));
                 }
-                Order::Begin { again } => {
-                    if let Err(error) = self.begin(again) {
+                Order::Onlook(input) => {
+                    self.game.iter_mut().for_each(|game| game.film.onlook(input));
+                }
+                Order::Begin(begin) => {
+                    if let Err(error) = self.begin(begin) {
                         self.take_up_stylus();
                         self.complain(error, flow);
                     }
@@ -300,6 +308,9 @@ impl<'a> Desk<'a> {
 
     /// Does what is the window's to do.
     fn act(&mut self, action: Action) {
+        if self.help_by(action) {
+            return;
+        }
         let now_s = self.now_s();
         match (action, &mut self.game) {
             // What stands there now is drawn again.
@@ -336,14 +347,14 @@ impl<'a> Desk<'a> {
     }
 
     /// A game begins in place of the one before.
-    fn begin(&mut self, again: bool) -> Result<(), Error> {
+    fn begin(&mut self, begin: Begin) -> Result<(), Error> {
         self.keep();
         // The device is the game's.
         self.game = None;
         self.drop_stylus();
         let language = self.spoken;
         let settings = self.lobby.menu().map(|menu| &menu.settings);
-        let prepared = self.host.prepare(settings, language, again)?;
+        let prepared = self.host.prepare(settings, language, begin)?;
         let ended = self.ended.clone();
         let tell = move || {
             // A window that is gone need not be told.
@@ -510,6 +521,8 @@ impl<'a> Desk<'a> {
                     game.outbox.say(input);
                 }
             }
+            self.look_after_aids();
+            let Some(game) = &mut self.game else { return };
             let felt = game.shake.take();
             let wants = self.lobby.menu().is_none_or(|menu| menu.settings.rumble);
             if let (Some(rumble), Some(pads), true) = (felt, &self.pads, wants) {
@@ -566,25 +579,13 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Writes what the window shows into a file, and says where.
-    fn keep_picture(&mut self, rows: &[[u8; 4]], size: (u32, u32)) {
-        let kept = encoded(rows, size)
-            .map_err(|error| error.to_string())
-            .and_then(|png| self.host.picture(&png).map_err(|error| error.to_string()));
-        let words = Words::new(self.spoken);
-        let said = match kept {
-            Ok(path) => words.fill("picture", "path", &path.display().to_string()),
-            Err(reason) => words.fill("no_picture", "reason", &reason),
-        };
-        self.said = Some((said, Instant::now() + SAID));
-    }
-
     /// While time stands still, something is to be chosen or no game goes on, the pointer belongs
     /// to the player's desk.
     fn hold_pointer(&mut self) {
         let is_free = |mode| matches!(mode, HumanMode::Paused | HumanMode::Choosing);
         let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game.mode()));
-        let is_playing = self.is_focused && goes_on && self.lobby.is_playing();
+        let is_seen = goes_on || self.lobby.is_replaying();
+        let is_playing = self.is_focused && is_seen && !self.lobby.is_menu_open();
         if is_playing && !self.pointer.is_caught() {
             self.pointer.catch(&self.window);
         } else if !is_playing && self.pointer.is_caught() {

@@ -4,7 +4,7 @@ use super::stylus::StylusPort;
 use crate::haptic::Timing;
 use glam::DVec2;
 use hapticbillard::haptic::ServoReport;
-use hapticbillard::input::{HumanMode, HumanView, StylusMouse, StylusSays};
+use hapticbillard::input::{HumanMode, HumanView, StylusMouse, StylusSays, View};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
     DrawList, FeltEye, FeltLook, FeltTool, Hud, Overlay, Punctuality, Radii, Words, aimed_by_stylus,
@@ -90,10 +90,11 @@ impl FeltScreen {
             return view.clone();
         }
         if !self.setup.leads && view.mode != HumanMode::Paused {
-            self.leads = view.mode == HumanMode::HoldingStylus;
+            self.leads = view.mode == HumanMode::HoldingStylus
+                || (self.leads && view.mode == HumanMode::Pointing);
         }
         let is_elsewhere = match view.mode {
-            HumanMode::Placing | HumanMode::Choosing => true,
+            HumanMode::Placing | HumanMode::Pointing | HumanMode::Choosing => true,
             HumanMode::Watching => self.setup.has_turns,
             HumanMode::Aiming
             | HumanMode::HoldingStylus
@@ -103,7 +104,7 @@ impl FeltScreen {
         // An eye that the stylus leads is where it was led to.
         let is_away = !self.leads || is_elsewhere || view.look.free;
         let wanted = match report.workspace {
-            Some(workspace) if !is_away && !view.look.bird => {
+            Some(workspace) if !is_away && view.look.view == View::Usual => {
                 self.eye.behind(&workspace, &view.look, world.is_rolling())
             }
             _ => view.camera,

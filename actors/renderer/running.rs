@@ -1,6 +1,8 @@
 //! One game beside its window: its thread, and the window's ends of what joins them.
 
+use super::advice::{AdviceScreen, NoAdvice};
 use super::felt::{FeltScreen, FeltSetup};
+use super::film::FilmScreen;
 use super::game_thread::GameThread;
 use super::heard::{HeardScreen, HeardSetup};
 use super::meters::MetersScreen;
@@ -10,14 +12,15 @@ use crate::conductor::RunError;
 use crate::event_manager::Sink;
 use crate::meters::Meters;
 use glam::DVec2;
+use hapticbillard::ai::Adviser;
 use hapticbillard::events::{Event, Topic, Topics};
 use hapticbillard::ids::GameKind;
 use hapticbillard::input::{
-    Bindings, HandInput, HumanMode, HumanView, Rumble, StylusMouse, StylusSays,
+    Bindings, HandInput, HumanMode, HumanView, Room, Rumble, StylusMouse, StylusSays, Tutor,
 };
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    DrawList, HelpOf, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+    DrawList, HelpOf, Hud, Mount, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
 };
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
@@ -29,6 +32,9 @@ use three_d::Context;
 const REPORTS: usize = 1024;
 /// Batches of events that may wait for a picture; what does not fit is counted as dropped.
 const MAIL: usize = 4096;
+
+/// States that may wait to be filmed: 16 s, in which no picture was drawn.
+const FILM: usize = 4096;
 
 /// What a window shows of a game.
 pub struct GameSetup {
@@ -48,6 +54,10 @@ pub struct GameSetup {
     pub felt: Option<FeltSetup>,
     /// Sound; none where a scene has none.
     pub heard: Option<HeardSetup>,
+    /// Who tells a person what to play.
+    pub adviser: Option<Adviser>,
+    /// Somebody shows how to play.
+    pub is_lesson: bool,
 }
 
 /// The game's ends of what joins it with its window.
@@ -58,6 +68,8 @@ pub struct Ports {
     pub view: triple_buffer::Input<HumanView>,
     /// The newest state of the world.
     pub world: triple_buffer::Input<Arc<Snapshot>>,
+    /// States of the world, in order, for a film.
+    pub film: flume::Sender<Arc<Snapshot>>,
     /// Where events for the scoreboard go.
     pub sink: Sink,
     /// What is measured while its panel is shown.
@@ -87,14 +99,25 @@ pub struct Running {
     pub heard: Option<HeardScreen>,
     /// What the computer thinks is shown.
     pub shows_thoughts: bool,
+    /// Where the balls of the last shot went is shown.
+    pub shows_traces: bool,
     /// What is measured.
     pub meters: MetersScreen,
+    /// Who tells a person what to play, if there is somebody.
+    pub advice: Option<AdviceScreen>,
+    /// Somebody who shows how to play.
+    pub tutor: Option<Tutor>,
+    /// Shots that can be seen again.
+    pub film: FilmScreen,
     /// The hardest contact since somebody took it, for a gamepad.
     pub shake: Option<Rumble>,
     view: triple_buffer::Output<HumanView>,
     world: triple_buffer::Output<Arc<Snapshot>>,
     mail: flume::Receiver<Delivered>,
     playhead: Playhead,
+    mount: Mount,
+    room: Room,
+    drawn_s: f64,
     names: Vec<String>,
     game: Option<GameKind>,
     texts: Texts,
@@ -123,12 +146,17 @@ impl Running {
         let (view_in, view) = triple_buffer::triple_buffer(&HumanView::default());
         let (world_in, world) = triple_buffer::triple_buffer(&setup.first);
         let (mail_in, mail) = flume::bounded(MAIL);
+        let advice = setup.adviser.map(|adviser| AdviceScreen::new(adviser, &setup.first));
+        let also = advice.as_ref().map_or(Topics::NONE, AdviceScreen::topics);
+        let also = if setup.is_lesson { also.or(Tutor::topics()) } else { also };
+        let (film_in, film) = flume::bounded(FILM);
         let contacts = [Topic::CueBallStruck, Topic::BallsCollided, Topic::CushionHit];
         let contacts = if is_shaken { Topics::of(&contacts) } else { Topics::NONE };
-        let sink = Sink::new("window", Scoreboard::topics().or(contacts), mail_in);
+        let sink = Sink::new("window", Scoreboard::topics().or(contacts).or(also), mail_in);
         let meters = Arc::new(Meters::default());
         let measured = meters.clone();
-        let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
+        let ports =
+            Ports { raw, view: view_in, world: world_in, film: film_in, sink, meters: measured };
         let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
             stage: Stage::new(context, &setup.table),
@@ -136,12 +164,19 @@ impl Running {
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
             shows_thoughts: false,
+            shows_traces: false,
+            advice,
+            tutor: setup.is_lesson.then(Tutor::default),
+            film: FilmScreen::new(film),
             meters: MetersScreen::new(meters),
             shake: None,
             view,
             world,
             mail,
             playhead: Playhead::new(setup.first, setup.speed),
+            mount: Mount::default(),
+            room: Room::round(setup.table.bed.as_ref()),
+            drawn_s: 0.0,
             texts: texts(language, &setup.names, setup.game),
             words: Words::new(language).with_keys(bindings),
             names: setup.names,
@@ -175,6 +210,26 @@ impl Running {
         self.view.read().clone()
     }
 
+    /// The last shot is seen again, or no longer.
+    pub fn screen(&mut self, is_shown: bool) {
+        if is_shown {
+            self.film.begin(&self.table);
+        } else if self.film.end()
+            && let Some(tutor) = &mut self.tutor
+        {
+            tutor.saw_replay();
+        }
+    }
+
+    /// Asks what to play, if that can be asked now.
+    pub fn ask_advice(&mut self) -> Result<(), NoAdvice> {
+        let table = self.world.read().clone();
+        let mode = self.view.read().mode;
+        let advice = self.advice.as_mut().ok_or(NoAdvice::Nobody)?;
+        let turn = self.board.turn.clone().filter(|_| mode == HumanMode::Aiming);
+        advice.ask(turn.ok_or(NoAdvice::NotNow)?, &table)
+    }
+
     /// What the player is doing.
     pub fn mode(&mut self) -> HumanMode {
         self.view.read().mode
@@ -185,9 +240,16 @@ impl Running {
         self.meters.look(&self.outbox);
         for delivered in self.mail.try_iter() {
             self.meters.hear(&delivered);
+            if let Some(advice) = &mut self.advice {
+                advice.hear(&delivered);
+            }
             for stamped in delivered.events.iter() {
                 self.board.hear(&stamped.event);
+                if let Some(tutor) = &mut self.tutor {
+                    tutor.hear(&stamped.event);
+                }
                 if let Event::Fact(fact) = &stamped.event {
+                    self.film.hear(fact);
                     let felt = Rumble::of(fact).into_iter().chain(self.shake);
                     self.shake = felt.max_by(|a, b| a.strength.total_cmp(&b.strength));
                 }
@@ -195,6 +257,7 @@ impl Running {
         }
         let state = self.world.read().clone();
         self.playhead.take(&state, now_s);
+        self.film.take();
         if let Some(felt) = &mut self.felt {
             felt.take(now_s);
         }
@@ -202,7 +265,26 @@ impl Running {
 
     /// What is drawn and written at `now_s`, for somebody who holds a gamepad or not.
     pub fn seen(&mut self, view: &HumanView, is_by_pad: bool, now_s: f64) -> (DrawList, Hud) {
-        let (mut list, mut written) = self.drawn(view, now_s);
+        let dt = now_s - std::mem::replace(&mut self.drawn_s, now_s);
+        if let Some((world, view)) = self.film.seen(dt) {
+            let view = self.hung(view.carried(&world), dt);
+            let mut list = DrawList::new(&world, &view, &self.radii);
+            if self.shows_traces {
+                list.show_traces(self.film.ways(), view.cue_ball, &self.radii);
+            }
+            return (list, self.film.written(&self.board, &self.words));
+        }
+        let (mut list, mut written) = self.drawn(view, now_s, dt);
+        if self.shows_traces {
+            list.show_traces(self.film.ways(), view.cue_ball, &self.radii);
+        }
+        if let Some(tutor) = &mut self.tutor {
+            tutor.see(view);
+            written = written.with_lesson(tutor, is_by_pad, &self.words);
+        }
+        if let Some(advice) = self.advice.as_ref().and_then(AdviceScreen::shown) {
+            draw_thoughts(&advice.insight, &self.radii, &mut list);
+        }
         if is_by_pad {
             written = written.for_pad(view, &self.words);
         }
@@ -229,13 +311,23 @@ impl Running {
         }
     }
 
-    fn drawn(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
-        let (world, radii) = (self.playhead.shown(now_s), &self.radii);
+    /// The eye hangs where it is wanted.
+    fn hung(&mut self, mut view: HumanView, dt: f64) -> HumanView {
+        view.camera = self.mount.hang(&view.camera, &self.room, dt);
+        view
+    }
+
+    fn drawn(&mut self, view: &HumanView, now_s: f64, dt: f64) -> (DrawList, Hud) {
+        let world = self.playhead.shown(now_s);
+        let mut view = view.clone().carried(&world);
+        if let Some(felt) = &mut self.felt {
+            view = felt.view(&view, &world, &self.table, &self.radii, now_s);
+        }
+        let (view, radii) = (self.hung(view, dt), &self.radii);
         let Some(felt) = &mut self.felt else {
-            let written = Hud::new(&self.board, view, &self.texts, &self.words);
-            return (DrawList::new(&world, view, radii), written);
+            let written = Hud::new(&self.board, &view, &self.texts, &self.words);
+            return (DrawList::new(&world, &view, radii), written);
         };
-        let view = felt.view(view, &world, &self.table, radii, now_s);
         let mut list = DrawList::new(&world, &view, radii);
         felt.draw(&mut list);
         let written = Hud::new(&self.board, &view, &self.texts, &self.words);

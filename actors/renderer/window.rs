@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::Bindings;
-use hapticbillard::menu::{Menu, Settings};
+use hapticbillard::menu::{Begin, Menu, Settings};
 use hapticbillard::renderer::DrawList;
 use hapticbillard::rules::Language;
 use hapticbillard::table::Table;
@@ -61,7 +61,7 @@ pub struct Backdrop {
 
 /// Who runs the games of a window.
 pub trait Host {
-    /// Makes ready what is set; `again`: the last game once more, or the first one.
+    /// Makes ready the game that is to begin; the last one once more is the first one at first.
     ///
     /// # Errors
     /// Why it cannot be played; the player reads it.
@@ -69,7 +69,7 @@ pub trait Host {
         &mut self,
         settings: Option<&Settings>,
         language: Language,
-        again: bool,
+        begin: Begin,
     ) -> Result<Prepared, Error>;
 
     /// What is seen behind the main menu; asked for when it first opens.

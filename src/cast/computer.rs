@@ -1,7 +1,7 @@
 //! The computer players of a scene, with all that they think with.
 
 use super::CastError;
-use crate::ai::{Level, Mind, MindSetup, Player, PlayerSettings, ThrowTable};
+use crate::ai::{Adviser, Level, Mind, MindSetup, Player, PlayerSettings, ThrowTable};
 use crate::ball::{Ball, BallState};
 use crate::cue::Aim;
 use crate::hash::seed_of;
@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// How many shots of the event-driven solver take as long as one in fixed steps, roughly: who has
 /// only the latter tries so many times fewer.
 const SHOTS_PER_STEPPED_SHOT: u32 = 16;
+
+/// Who advises thinks as far as the champion, and reckons with an arm as unsteady as a person's.
+const ADVISER_STRENGTH: u8 = 70;
 
 /// What the computer players of a game have in common.
 pub(super) struct Surroundings<'a> {
@@ -80,7 +83,18 @@ impl Surroundings<'_> {
         if in_steps && section.simulations.is_none() {
             settings.simulations = settings.simulations.div_ceil(SHOTS_PER_STEPPED_SHOT);
         }
-        let mind = Mind::new(MindSetup {
+        let mind = Mind::new(self.mind_setup(simulation, &settings, bed, referee));
+        Ok(player(settings).with_mind(Arc::new(mind), referee.clone()))
+    }
+
+    fn mind_setup(
+        &self,
+        simulation: Simulation,
+        settings: &PlayerSettings,
+        bed: Bed,
+        referee: &Referee,
+    ) -> MindSetup {
+        MindSetup {
             simulation,
             balls: self.balls.iter().map(|(ball, _)| ball.clone()).collect(),
             table: self.table.clone(),
@@ -94,8 +108,22 @@ impl Surroundings<'_> {
                 Profile::Paper2009 => ThrowTable::constant(settings.throw_factor),
             },
             simulations: settings.simulations,
-        });
-        Ok(player(settings).with_mind(Arc::new(mind), referee.clone()))
+        }
+    }
+
+    /// Somebody who tells a person at mouse and keyboard what to play; none where nobody sits
+    /// there, nothing is played, or shots are computed in steps, which takes too long.
+    pub fn adviser(&self) -> Result<Option<Adviser>, PhysicsError> {
+        let (Some(referee), Some(bed)) = (self.referee, self.table.bed) else { return Ok(None) };
+        if !self.scene.has_hand() || self.scene.cue.is_none() {
+            return Ok(None);
+        }
+        let Own { simulation, in_steps } = self.own_simulation()?;
+        let seed = self.scene.about.seed;
+        let settings =
+            PlayerSettings::of_strength(ADVISER_STRENGTH, seed, self.scene.physics.profile);
+        let setup = self.mind_setup(simulation, &settings, bed, referee);
+        Ok((!in_steps).then(|| Adviser::new(setup, referee.clone())))
     }
 
     fn settings(&self, section: &PlayerSection, id: PlayerId) -> Result<PlayerSettings, CastError> {

@@ -68,6 +68,8 @@ actions! {
     NextPocket "next_pocket" Cue;
     /// The next ball is called.
     NextBall "next_ball" Cue;
+    /// A pocket is called by pointing at it, until the next click.
+    PointPocket "point_pocket" Cue;
     /// A safety is called, or is not.
     Safety "safety" Cue;
     /// A push-out is called, or is not.
@@ -86,10 +88,24 @@ actions! {
     Look "look" Eye;
     /// The table from above, or no longer.
     BirdsEye "birds_eye" Eye;
+    /// From elsewhere: above, round the cue ball, behind it, from the ends and the side.
+    NextView "next_view" Eye;
     /// The eye is led by hand, or goes back to where it was.
     Camera "camera" Eye;
     /// Held: the wheel menu.
     Wheel "wheel" Eye;
+    /// The last shot is seen again, or no longer.
+    Replay "replay" Show;
+    /// Where the balls of the last shot went, or no longer.
+    Traces "traces" Show;
+    /// The computer aims.
+    Suggest "suggest" Show;
+    /// The film stands still, or goes on.
+    FilmHold "film_hold" Film;
+    /// The film goes slower.
+    FilmSlower "film_slower" Film;
+    /// The film goes faster.
+    FilmFaster "film_faster" Film;
     /// Time stands still, or goes on.
     Pause "pause" Clock;
     /// Held: time runs faster while somebody waits.
@@ -108,6 +124,8 @@ actions! {
     Mute "mute" Sound;
     /// For headphones or for loudspeakers.
     SoundMode "sound_mode" Sound;
+    /// The tutorial goes on.
+    NextLesson "next_lesson" Show;
     /// What there is to press.
     Help "help" Window;
     /// What is measured of the runtime.

@@ -70,6 +70,15 @@ impl Calling {
         }
     }
 
+    /// Calls the pocket that is nearest to this point of the bed [m], where pockets are called.
+    pub fn point_at(&mut self, at: DVec2, sight: &Sight<'_>) {
+        let away = |pocket: &Pocket| pocket.centre.distance_squared(at);
+        let nearest = sight.pockets.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        if sight.calls_pockets() {
+            (self.kind, self.pocket) = (None, nearest.map(|pocket| pocket.id));
+        }
+    }
+
     fn toggle(&mut self, kind: CallKind) {
         self.kind = if self.kind == Some(kind) { None } else { Some(kind) };
     }
@@ -138,6 +147,11 @@ impl Calling {
 }
 
 impl Sight<'_> {
+    /// Whether a pocket is announced with a stroke.
+    pub fn calls_pockets(&self) -> bool {
+        self.turn.calls.ball && self.turn.calls.pocket
+    }
+
     /// The balls that may be called, and where they lie [m].
     fn callable(&self) -> impl Iterator<Item = (BallId, DVec2)> + '_ {
         let balls = self.table.on_table();

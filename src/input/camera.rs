@@ -2,9 +2,16 @@
 //!
 //! It belongs to the picture alone: nothing here is recorded or hashed.
 
+mod free;
+use free::Free;
+
+mod room;
+pub use room::Room;
+
 use super::feel::{CAMERA_TICKS, PLACING_M_PER_HEIGHT, ZOOM};
-use super::{CameraPose, Drive, Look};
+use super::{CameraPose, Drive, Look, View};
 use crate::cue::Aim;
+use crate::table::Bed;
 use crate::units::TICK_S;
 use glam::{DVec2, DVec3};
 
@@ -25,12 +32,16 @@ const WATCH_RISE_RAD: f64 = 34.0 * DEGREE;
 const OVER_CUE_RAD: f64 = 12.0 * DEGREE;
 /// Lowest and highest eye [rad]: above the rails, and never straight above what it looks at.
 const RISE: (f64, f64) = (4.0 * DEGREE, 86.0 * DEGREE);
-/// Where a free eye may be: over the floor, below the ceiling, not far from the table [m].
-const ROOM: (DVec3, DVec3) = (DVec3::new(-4.0, -3.5, -0.6), DVec3::new(4.0, 3.5, 2.2));
-/// How high the eye stays over the bed above the table [m], and how far it keeps from its side.
-const OVER_BED_M: f64 = 0.1;
-/// The steepest free look [rad].
-const STEEP_RAD: f64 = 85.0 * DEGREE;
+/// The eye that goes round the cue ball: how far away, and how high [rad].
+const ROUND_M: f64 = 1.1;
+/// See [`ROUND_M`] [rad].
+const ROUND_RISE_RAD: f64 = 28.0 * DEGREE;
+/// The eye that follows the cue ball: how far behind, looking how far ahead [m], how high [rad].
+const FOLLOW: (f64, f64, f64) = (0.9, 0.45, 24.0 * DEGREE);
+/// The eye at an end or a side of the table: how far beyond its bed, and how high over it [m].
+const BESIDE_M: (f64, f64) = (1.05, 1.0);
+/// No eye sets out faster than this [m/s]: what turns with the cue does.
+const SET_OUT_M_S: f64 = 3.0;
 /// The bird is this much off the vertical towards −y, so that it knows which way is up [m].
 const BIRD_ASIDE_M: f64 = 0.02;
 
@@ -55,65 +66,33 @@ pub(super) enum Viewpoint {
         /// How the cue was held.
         aim: Aim,
     },
+    /// Round a ball, wherever it rolls.
+    Round {
+        /// Its middle [m].
+        ball: DVec3,
+    },
+    /// Behind a ball, wherever it rolls.
+    Follow {
+        /// Its middle [m].
+        ball: DVec3,
+        /// How the cue was held.
+        aim: Aim,
+    },
+    /// Beyond the table, this way from its middle.
+    Beside(DVec2),
 }
 
 impl Viewpoint {
-    /// Whether both are the same place, apart from how the cue is held.
+    /// Whether both are the same place, apart from how the cue is held. An eye that goes with a
+    /// ball is where the ball is.
     fn is_like(&self, other: &Viewpoint) -> bool {
         match (self, other) {
+            (Viewpoint::Round { .. }, Viewpoint::Round { .. })
+            | (Viewpoint::Follow { .. }, Viewpoint::Follow { .. }) => true,
             (Viewpoint::Cue { ball: a, .. }, Viewpoint::Cue { ball: b, .. })
             | (Viewpoint::Watch { ball: a, .. }, Viewpoint::Watch { ball: b, .. }) => a == b,
             _ => self == other,
         }
-    }
-}
-
-/// An eye that goes where it is led: five degrees of freedom, no roll.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Free {
-    /// Where it is [m].
-    eye: DVec3,
-    /// Where it looks: horizontally, anticlockwise from +x, and upwards [rad].
-    azimuth_rad: f64,
-    rise_rad: f64,
-}
-
-impl Free {
-    fn from(pose: &CameraPose) -> Self {
-        let ahead = (pose.target - pose.eye).normalize_or(DVec3::X);
-        Free {
-            eye: pose.eye,
-            azimuth_rad: libm::atan2(ahead.y, ahead.x),
-            rise_rad: libm::asin(ahead.z.clamp(-1.0, 1.0)).clamp(-STEEP_RAD, STEEP_RAD),
-        }
-    }
-
-    fn turn(&mut self, left_rad: f64, up_rad: f64) {
-        self.azimuth_rad = libm::remainder(self.azimuth_rad + left_rad, std::f64::consts::TAU);
-        self.rise_rad = (self.rise_rad + up_rad).clamp(-STEEP_RAD, STEEP_RAD);
-    }
-
-    /// Goes to its right, up and forwards [m]; it stays in the room and out of the table, whose bed
-    /// is so large [m].
-    fn go(&mut self, by: DVec3, table: DVec2) {
-        let (sin, cos) = libm::sincos(self.azimuth_rad);
-        let (right, ahead) = (DVec3::new(sin, -cos, 0.0), DVec3::new(cos, sin, 0.0));
-        let wanted = self.eye + right * by.x + DVec3::Z * by.y + ahead * by.z;
-        let wanted = wanted.clamp(ROOM.0, ROOM.1);
-        let is_over = wanted.truncate().abs().cmplt(0.5 * table).all();
-        self.eye = match is_over && wanted.z < OVER_BED_M {
-            // From above it stays above; from the side it stays there.
-            true if self.eye.truncate().abs().cmplt(0.5 * table).all() => wanted.with_z(OVER_BED_M),
-            true => self.eye.with_z(wanted.z),
-            false => wanted,
-        };
-    }
-
-    fn pose(&self) -> CameraPose {
-        let (sin_a, cos_a) = libm::sincos(self.azimuth_rad);
-        let (sin_r, cos_r) = libm::sincos(self.rise_rad);
-        let ahead = DVec3::new(cos_r * cos_a, cos_r * sin_a, sin_r);
-        CameraPose { eye: self.eye, target: self.eye + ahead, ..CameraPose::default() }
     }
 }
 
@@ -125,35 +104,53 @@ pub(super) struct Camera {
     turn_rad: f64,
     rise_rad: f64,
     zoom: f64,
-    /// On its way from here, so many ticks to go.
+    /// On its way from here, at this speed [m/s], so many ticks to go.
     from: CameraPose,
+    set_out: DVec3,
     left: u64,
+    /// Where it was a tick ago.
+    before: CameraPose,
     /// It is led by hand.
     free: Option<Free>,
+    /// Half the bed [m].
+    half_bed: DVec2,
+    room: Room,
 }
 
 impl Camera {
-    /// The eye over the whole table.
-    pub fn new() -> Self {
+    /// The eye over the whole of a table with this bed.
+    pub fn new(bed: Option<&Bed>) -> Self {
+        let pose = CameraPose::default();
         Camera {
             viewpoint: Viewpoint::Overview,
             turn_rad: 0.0,
             rise_rad: 0.0,
             zoom: 1.0,
-            from: CameraPose::default(),
+            from: pose,
+            set_out: DVec3::ZERO,
             left: 0,
+            before: pose,
             free: None,
+            half_bed: bed.map_or(DVec2::ONE, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m)),
+            room: Room::round(bed),
         }
     }
 
     /// Goes to another place, unless it is there already.
     pub fn go_to(&mut self, viewpoint: Viewpoint) {
         if !self.viewpoint.is_like(&viewpoint) {
-            self.from = self.pose();
-            self.left = CAMERA_TICKS;
+            self.set_out();
             self.turn_rad = 0.0;
         }
         self.viewpoint = viewpoint;
+    }
+
+    /// Leaves from where it is, as fast as it is.
+    fn set_out(&mut self) {
+        self.from = self.pose();
+        let speed = (self.from.eye - self.before.eye) / TICK_S;
+        self.set_out = speed.clamp_length_max(SET_OUT_M_S);
+        self.left = CAMERA_TICKS;
     }
 
     /// From here on it is led by hand; or goes back to where it would be.
@@ -161,8 +158,8 @@ impl Camera {
         if is_free && self.free.is_none() {
             self.free = Some(Free::from(&self.pose()));
         } else if !is_free && self.free.is_some() {
-            self.from = self.pose();
-            (self.free, self.left) = (None, CAMERA_TICKS);
+            self.set_out();
+            self.free = None;
         }
     }
 
@@ -171,11 +168,11 @@ impl Camera {
         self.free.is_some()
     }
 
-    /// One tick of being led, if it is, round a table with a bed of this size [m].
-    pub fn drive(&mut self, drive: &Drive, table: DVec2) {
+    /// One tick of being led, if it is.
+    pub fn drive(&mut self, drive: &Drive) {
         let Some(free) = &mut self.free else { return };
         free.turn(drive.turn_rad_s * TICK_S, drive.rise_rad_s * TICK_S);
-        free.go(drive.velocity * TICK_S, table);
+        free.go(drive.velocity * TICK_S, &self.room);
     }
 
     /// Looks round.
@@ -193,14 +190,24 @@ impl Camera {
         self.zoom = (self.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
     }
 
-    /// How the player looks round, from above or not.
-    pub fn looking(&self, bird: bool) -> Look {
+    /// How the player looks round, in this view.
+    pub fn looking(&self, view: View) -> Look {
         let free = self.is_free();
-        Look { turn_rad: self.turn_rad, rise_rad: self.rise_rad, zoom: self.zoom, bird, free }
+        Look { turn_rad: self.turn_rad, rise_rad: self.rise_rad, zoom: self.zoom, view, free }
+    }
+
+    /// The place of the ball that it goes with [m], if it goes with one.
+    pub fn rides(&self) -> Option<DVec3> {
+        match self.viewpoint {
+            _ if self.is_free() => None,
+            Viewpoint::Round { ball } | Viewpoint::Follow { ball, .. } => Some(ball),
+            _ => None,
+        }
     }
 
     /// A tick passes.
     pub fn step(&mut self) {
+        self.before = self.pose();
         self.left = self.left.saturating_sub(1);
     }
 
@@ -213,11 +220,14 @@ impl Camera {
         if self.left == 0 {
             return to;
         }
+        // A cubic spline: it leaves as fast as the eye was, and arrives at rest.
         let s = 1.0 - self.left as f64 / CAMERA_TICKS as f64;
-        let s = s * s * (3.0 - 2.0 * s);
+        let share = s * s * (3.0 - 2.0 * s);
+        let way_s = CAMERA_TICKS as f64 * TICK_S;
+        let ahead = self.set_out * (s * (1.0 - s) * (1.0 - s) * way_s);
         CameraPose {
-            eye: self.from.eye.lerp(to.eye, s),
-            target: self.from.target.lerp(to.target, s),
+            eye: self.from.eye.lerp(to.eye, share) + ahead,
+            target: self.from.target.lerp(to.target, share),
             ..to
         }
     }
@@ -238,6 +248,16 @@ impl Camera {
             }
             Viewpoint::Watch { ball, aim } => {
                 self.behind(ball, aim, (WATCH_BEHIND_M, WATCH_AHEAD_M, WATCH_RISE_RAD))
+            }
+            Viewpoint::Follow { ball, aim } => self.behind(ball, aim, FOLLOW),
+            Viewpoint::Round { ball } => {
+                let (sin, cos) = libm::sincos(ROUND_RISE_RAD);
+                self.orbit(ball, DVec3::new(-cos, 0.0, sin) * ROUND_M, usual)
+            }
+            Viewpoint::Beside(way) => {
+                let (beyond_m, height_m) = BESIDE_M;
+                let at = way * (self.half_bed + DVec2::splat(beyond_m));
+                self.orbit(usual.target, at.extend(height_m) - usual.target, usual)
             }
         }
     }

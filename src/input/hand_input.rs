@@ -2,6 +2,7 @@
 
 use super::feel::TRIGGER_BEGIN;
 use super::{Action, AimAid, Steering};
+use crate::cue::Aim;
 use glam::DVec2;
 
 /// One thing that a player's hand does.
@@ -43,6 +44,8 @@ pub enum HandInput {
         /// Upwards.
         up: f64,
     },
+    /// The cue is held so, from now on.
+    Hold(Aim),
     /// So a stylus leads the camera, from now on.
     Steering(Steering),
     /// A line of the options that are written in the window was clicked, counted from 0.

@@ -60,7 +60,7 @@ use super::hand_over::{HandOver, StylusWord};
 use super::held::Held;
 use super::placing::Placing;
 use super::tip::{Tip, address_path, stroke_path};
-use super::{Action, HandInput, sight};
+use super::{Action, HandInput, View, sight};
 use crate::ball::POOL_RADIUS_M;
 use crate::cue::{Aim, CuePath, TIP_RADIUS_M};
 use crate::events::{Command, Event, Fact, FactKind, Source, Topic, Topics, Turn, Zone};
@@ -134,7 +134,12 @@ pub struct Human {
     /// A gamepad's sticks, and the trigger that strokes.
     sticks: Sticks,
     camera: Camera,
-    is_bird: bool,
+    /// From where the player likes to look.
+    view: View,
+    /// Whoever only looks on looks round without holding anything.
+    only_looks: bool,
+    /// A pocket is called by pointing at this point of the bed [m].
+    pointing: Option<DVec2>,
     overlay: bool,
     paused: bool,
     /// The last answer said that time stands still: the frame of the next one is not used.
@@ -148,6 +153,7 @@ pub struct Human {
 impl Human {
     /// A hand that plays for `players` on `table`.
     pub fn new(players: Vec<PlayerId>, table: Arc<Table>) -> Self {
+        let camera = Camera::new(table.bed.as_ref());
         Human {
             players,
             table,
@@ -172,8 +178,10 @@ impl Human {
             steering: Steering::default(),
             held: Held::default(),
             sticks: Sticks::default(),
-            camera: Camera::new(),
-            is_bird: false,
+            camera,
+            view: View::Usual,
+            only_looks: false,
+            pointing: None,
             overlay: false,
             paused: false,
             was_paused: false,
@@ -263,6 +271,7 @@ impl Human {
             HandInput::Picked { option } => self.pick(option),
             HandInput::Aid(aid) => self.ahead.aid = aid,
             HandInput::Points { right, up } => self.pointed_at(DVec2::new(right, up)),
+            HandInput::Hold(aim) => self.hold_so(aim),
             HandInput::Steering(steering) => self.steering = steering,
             HandInput::FocusLost => self.forget(),
             HandInput::PadLost => {
@@ -288,7 +297,7 @@ impl Human {
     }
 
     fn moved(&mut self, right: f64, upwards: f64, stroke: &mut f64) {
-        if self.held.has(Action::Look) || self.camera.is_free() {
+        if self.held.has(Action::Look) || self.camera.is_free() || self.only_looks {
             self.camera.look(-right * LOOK_RAD_PER_HEIGHT, -upwards * LOOK_RAD_PER_HEIGHT);
             return;
         }
@@ -296,11 +305,14 @@ impl Human {
             return;
         }
         let fine = self.fine();
-        if self.turn_workspace(-right * AIM_RAD_PER_HEIGHT * fine, 0.0) {
+        if self.pointing.is_none() && self.turn_workspace(-right * AIM_RAD_PER_HEIGHT * fine, 0.0) {
             return;
         }
         match &mut self.stage {
             Stage::Waiting | Stage::Struck | Stage::Choosing => {}
+            Stage::Aiming if self.pointing.is_some() => {
+                self.point_on(DVec2::new(right, upwards) * PLACING_M_PER_HEIGHT);
+            }
             Stage::Placing(placing) => {
                 let by = DVec2::new(right, upwards) * (PLACING_M_PER_HEIGHT * fine);
                 placing.moved(by, self.table.bed.as_ref(), self.radius_m);
@@ -366,6 +378,9 @@ impl Human {
             return;
         }
         let is_free = !self.stylus_leads();
+        if self.pointing.take().is_some() {
+            return;
+        }
         match &mut self.stage {
             Stage::Placing(placing) if !placing.is_put => {
                 placing.is_put = true;
@@ -396,6 +411,7 @@ impl Human {
 
     /// The cue is held no more, as far as a stroke goes: one that has met nothing is none.
     fn let_go(&mut self) {
+        self.pointing = None;
         if matches!(self.stage, Stage::Stroking(_)) {
             self.stage = Stage::Aiming;
             (self.path, self.key_stroke) = (None, None);
@@ -538,7 +554,7 @@ impl Human {
             self.command(Command::LiftCue);
         }
         self.stage = Stage::Waiting;
-        self.turn = None;
+        (self.turn, self.pointing) = (None, None);
         self.path = None;
         self.is_aim_new = false;
         self.ghost = None;

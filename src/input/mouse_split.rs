@@ -42,6 +42,7 @@ impl MouseSplit {
             HandInput::Picked { .. }
             | HandInput::Aid(_)
             | HandInput::Points { .. }
+            | HandInput::Hold(_)
             | HandInput::Steering(_)
             | HandInput::Stick { .. }
             | HandInput::Trigger(_) => Reader::Eye,
@@ -56,7 +57,7 @@ impl MouseSplit {
     /// The same in this stage of a turn: the mouse puts the cue ball down before it moves the hand.
     pub fn reader_in(&mut self, mode: HumanMode, report: &HandInput) -> Reader {
         match (self.reader(report), mode) {
-            (Reader::Hand, HumanMode::Placing) => Reader::Eye,
+            (Reader::Hand, HumanMode::Placing | HumanMode::Pointing) => Reader::Eye,
             (reader, _) => reader,
         }
     }

@@ -28,6 +28,8 @@ pub enum Controller {
     Show,
     /// Volume and mode of the sound.
     Sound,
+    /// A shot that is seen again.
+    Film,
     /// What a window does whatever stands in it.
     Window,
     /// The lines of a menu.
@@ -35,7 +37,7 @@ pub enum Controller {
 }
 
 impl Controller {
-    const NAMES: [(&'static str, Controller); 9] = [
+    const NAMES: [(&'static str, Controller); 10] = [
         ("cue", Controller::Cue),
         ("choice", Controller::Choice),
         ("eye", Controller::Eye),
@@ -43,6 +45,7 @@ impl Controller {
         ("leave", Controller::Leave),
         ("show", Controller::Show),
         ("sound", Controller::Sound),
+        ("film", Controller::Film),
         ("window", Controller::Window),
         ("menu", Controller::Menu),
     ];
@@ -63,17 +66,20 @@ pub enum Profile {
     Camera,
     /// Time stands still, and no menu is open.
     Pause,
+    /// The last shot is seen again.
+    Replay,
 }
 
 impl Profile {
     /// All.
-    pub const ALL: [Profile; 6] = [
+    pub const ALL: [Profile; 7] = [
         Profile::Always,
         Profile::Menu,
         Profile::Cue,
         Profile::Choice,
         Profile::Camera,
         Profile::Pause,
+        Profile::Replay,
     ];
 
     /// The name of its file.
@@ -85,6 +91,7 @@ impl Profile {
             Profile::Choice => "choice",
             Profile::Camera => "camera",
             Profile::Pause => "pause",
+            Profile::Replay => "replay",
         }
     }
 }

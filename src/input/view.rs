@@ -3,6 +3,7 @@
 use super::{BallWay, CallView};
 use crate::cue::Aim;
 use crate::ids::BallId;
+use crate::physics::Snapshot;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -76,6 +77,52 @@ impl CameraPose {
     }
 }
 
+/// From where a player likes to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum View {
+    /// Behind the cue, over the stroke that was made, or over the table.
+    #[default]
+    Usual,
+    /// From above.
+    Bird,
+    /// Round the cue ball, wherever it rolls.
+    Round,
+    /// Behind the cue ball, wherever it rolls.
+    Follow,
+    /// From the head of the table.
+    Head,
+    /// From its foot.
+    Foot,
+    /// From its long side.
+    Side,
+}
+
+impl View {
+    /// All, in the order in which they follow each other.
+    pub const ALL: [View; 7] =
+        [View::Usual, View::Bird, View::Round, View::Follow, View::Head, View::Foot, View::Side];
+
+    /// The next.
+    #[must_use]
+    pub fn next(self) -> Self {
+        let at = View::ALL.iter().position(|one| *one == self).unwrap_or(0);
+        View::ALL[(at + 1) % View::ALL.len()]
+    }
+
+    /// The key of its name in the texts.
+    pub fn name(self) -> &'static str {
+        match self {
+            View::Usual => "view_usual",
+            View::Bird => "view_bird",
+            View::Round => "view_round",
+            View::Follow => "view_follow",
+            View::Head => "view_head",
+            View::Foot => "view_foot",
+            View::Side => "view_side",
+        }
+    }
+}
+
 /// How the player looks round from the usual place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
@@ -85,15 +132,15 @@ pub struct Look {
     pub rise_rad: f64,
     /// Distance over the usual one.
     pub zoom: f64,
-    /// From above, over the whole table.
-    pub bird: bool,
+    /// From where.
+    pub view: View,
     /// The eye is led by hand.
     pub free: bool,
 }
 
 impl Default for Look {
     fn default() -> Self {
-        Look { turn_rad: 0.0, rise_rad: 0.0, zoom: 1.0, bird: false, free: false }
+        Look { turn_rad: 0.0, rise_rad: 0.0, zoom: 1.0, view: View::Usual, free: false }
     }
 }
 
@@ -109,6 +156,8 @@ pub enum HumanMode {
     Choosing,
     /// Turns the cue, sets tip offset and elevation.
     Aiming,
+    /// Calls a pocket by pointing at it.
+    Pointing,
     /// Has the cue ball before a stylus, which strikes.
     HoldingStylus,
     /// Holds the cue for a stroke: pulling back and pushing moves the tip.
@@ -122,6 +171,8 @@ pub enum HumanMode {
 pub struct HumanView {
     /// The camera.
     pub camera: CameraPose,
+    /// The camera goes with this ball: it is meant for where the ball was here [m].
+    pub rides: Option<(BallId, DVec3)>,
     /// What the player is doing.
     pub mode: HumanMode,
     /// The ball that is struck.
@@ -138,6 +189,8 @@ pub struct HumanView {
     pub placing_ball: BallId,
     /// It may be put there.
     pub placing_allowed: bool,
+    /// What is pointed at on the bed [m], while a pocket is called so.
+    pub pointing: Option<DVec2>,
     /// Where the cue ball's centre is when it meets the first ball or cushion on its straight way
     /// [m], while aiming; none if nothing is aimed at.
     pub ghost: Option<DVec3>,
@@ -159,4 +212,18 @@ pub struct HumanView {
     pub look: Look,
     /// The panel of the haptic device is not as the scene begins with it: shown or hidden.
     pub overlay: bool,
+}
+
+impl HumanView {
+    /// The same with a camera that goes with its ball, where that is in this world.
+    #[must_use]
+    pub fn carried(mut self, world: &Snapshot) -> Self {
+        let Some((ball, from)) = self.rides else { return self };
+        if let Some(at) = world.on_table().find(|one| one.id == ball) {
+            let by = (at.position - from).with_z(0.0);
+            self.camera.eye += by;
+            self.camera.target += by;
+        }
+        self
+    }
 }

@@ -1,5 +1,8 @@
 //! Who hears what the devices say: a menu or the game; and what becomes of either.
 
+mod replay;
+use replay::ends_replay;
+
 mod stylus;
 
 use super::{Act, Deed, Menu, MenuInput, Notice, Wheel, WheelPage};
@@ -18,11 +21,12 @@ pub enum Order {
     Do(Action),
     /// The player is told this; the key of a text over the picture.
     Say(&'static str),
-    /// A game begins in place of whatever is shown; `again`: the last one.
-    Begin {
-        /// See above.
-        again: bool,
-    },
+    /// A game begins in place of whatever is shown.
+    Begin(Begin),
+    /// The last shot is seen again, or no longer.
+    Replay(bool),
+    /// Whoever sees it hears this.
+    Onlook(HandInput),
     /// The game that is over is no longer shown.
     Clear,
     /// Something was set: it becomes true now.
@@ -31,6 +35,17 @@ pub enum Order {
     Rebound,
     /// The program ends.
     Quit,
+}
+
+/// Which game begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Begin {
+    /// The one that is set.
+    Set,
+    /// The last one.
+    Again,
+    /// The one in which a beginner learns to play.
+    Tutorial,
 }
 
 /// The line of a menu under a pointer.
@@ -86,6 +101,10 @@ pub struct Lobby {
     has_told_click: bool,
     /// The eye is led by hand.
     is_free: bool,
+    /// There is a shot that can be seen again.
+    has_film: bool,
+    /// It is seen again; `Some(true)`: time goes on after that.
+    replay: Option<bool>,
 }
 
 impl Lobby {
@@ -111,6 +130,8 @@ impl Lobby {
             wheel: None,
             has_told_click: false,
             is_free: false,
+            has_film: false,
+            replay: None,
         }
     }
 
@@ -170,26 +191,34 @@ impl Lobby {
         self.open("main");
     }
 
+    /// See [`Menu::welcome`].
+    pub fn welcome(&mut self) -> bool {
+        self.menu.as_mut().is_some_and(Menu::welcome)
+    }
+
     /// A game has begun.
     pub fn began(&mut self) {
         self.game = Game::Running;
         (self.is_resuming, self.is_leaving, self.has_lost_pad) = (false, false, false);
         (self.mode, self.looks_on) = (HumanMode::default(), false);
+        (self.has_film, self.replay) = (false, None);
         self.close();
     }
 
     /// The game has ended: with a result, which everybody shall see, or not. What follows.
     pub fn ended(&mut self, has_result: bool) -> Vec<Order> {
+        let mut orders = self.leave_replay();
         if has_result && !self.is_leaving {
             self.game = Game::Over;
             self.open("over");
-            return Vec::new();
+            return orders;
         }
         if self.menu.is_none() {
             return vec![Order::Quit];
         }
         self.open_main();
-        vec![Order::Clear]
+        orders.push(Order::Clear);
+        orders
     }
 
     /// Something went wrong, and a menu says so; false if there is none.
@@ -209,7 +238,8 @@ impl Lobby {
         if !is_paused && self.game == Game::Running && self.is_menu_open() {
             self.close();
         }
-        let opens = is_paused && self.is_playing() && !self.is_resuming && !self.is_leaving;
+        let is_meant = !self.is_resuming && !self.is_leaving && self.replay.is_none();
+        let opens = is_paused && self.is_playing() && is_meant;
         if opens && self.menu.is_some() {
             self.open("pause");
             if let (Some(menu), true) = (&mut self.menu, std::mem::take(&mut self.has_lost_pad)) {
@@ -241,7 +271,8 @@ impl Lobby {
                 // What sticks do meanwhile nobody hears.
                 self.pad = PadState::default();
                 self.move_menu(MenuInput::Never);
-                vec![Order::Tell(HandInput::FocusLost)]
+                let seen = self.replay.map(|_| Order::Onlook(HandInput::FocusLost));
+                seen.into_iter().chain([Order::Tell(HandInput::FocusLost)]).collect()
             }
             RawInput::Closed => vec![Order::Tell(HandInput::Closed), Order::Quit],
             RawInput::Moved { right, up } => {
@@ -273,7 +304,7 @@ impl Lobby {
     }
 
     fn unless_open(&self, input: HandInput) -> Vec<Order> {
-        if self.is_menu_open() { Vec::new() } else { vec![Order::Tell(input)] }
+        if self.is_menu_open() { Vec::new() } else { vec![self.tells(input)] }
     }
 
     /// The profile of now becomes active; the game hears what that ends.
@@ -281,6 +312,7 @@ impl Lobby {
         let is_open = self.is_menu_open();
         let profile = match (self.game, self.mode) {
             _ if is_open => Profile::Menu,
+            _ if self.replay.is_some() => Profile::Replay,
             (Game::None | Game::Over, _) => Profile::Pause,
             (Game::Running, HumanMode::Paused) if !self.is_resuming => Profile::Pause,
             (Game::Running, HumanMode::Choosing) => Profile::Choice,
@@ -289,7 +321,7 @@ impl Lobby {
         };
         let ended = self.controls.switch(profile);
         let told = ended.into_iter().filter(|action| !is_open && is_for_hand(*action));
-        told.map(|action| Order::Tell(HandInput::Act { action, down: false })).collect()
+        told.map(|action| self.tells(HandInput::Act { action, down: false })).collect()
     }
 
     /// A key or a button is pressed, or held and repeated, or let go.
@@ -322,6 +354,14 @@ impl Lobby {
                 let offers = self.menu.as_ref().is_some_and(|menu| menu.offers(Act::Leave));
                 if offers { self.obey(Deed::Leave) } else { Vec::new() }
             }
+            _ if self.replay.is_some() && ends_replay(action) => {
+                if edge == Edge::Pressed {
+                    self.end_replay()
+                } else {
+                    Vec::new()
+                }
+            }
+            (_, Edge::Pressed) if action == Action::Replay => self.begin_replay(),
             _ if self.game == Game::Over && matches!(action, Action::Pause | Action::Quit) => {
                 if edge == Edge::Pressed {
                     vec![Order::Quit]
@@ -337,7 +377,7 @@ impl Lobby {
             }
             _ if is_for_hand(action) => {
                 let down = edge == Edge::Pressed;
-                vec![Order::Tell(HandInput::Act { action, down })]
+                vec![self.tells(HandInput::Act { action, down })]
             }
             (_, Edge::Pressed) => vec![Order::Do(action)],
             (_, Edge::Released) => Vec::new(),
@@ -396,7 +436,7 @@ impl Lobby {
             Some(PadMeaning::Hand(input)) if self.lean_wheel(&input) => Vec::new(),
             Some(PadMeaning::Hand(input)) => {
                 self.is_by_pad |= input.is_moved();
-                vec![Order::Tell(input)]
+                vec![self.tells(input)]
             }
             Some(PadMeaning::There(true)) => vec![Order::Say("pad_found")],
             Some(PadMeaning::There(false)) => self.lose_pad(),
@@ -426,8 +466,10 @@ impl Lobby {
 
     fn obey(&mut self, deed: Deed) -> Vec<Order> {
         match deed {
-            Deed::Start => vec![Order::Begin { again: false }],
-            Deed::Again => vec![Order::Begin { again: true }],
+            Deed::Start => vec![Order::Begin(Begin::Set)],
+            Deed::Again => vec![Order::Begin(Begin::Again)],
+            Deed::Tutorial => vec![Order::Begin(Begin::Tutorial)],
+            Deed::Replay => self.begin_replay(),
             Deed::Resume => {
                 self.close();
                 self.is_resuming = true;
@@ -484,6 +526,6 @@ fn is_for_hand(action: Action) -> bool {
         | Controller::Clock
         | Controller::Leave => true,
         Controller::Show => action == Action::Panel,
-        Controller::Sound | Controller::Window | Controller::Menu => false,
+        Controller::Sound | Controller::Film | Controller::Window | Controller::Menu => false,
     }
 }

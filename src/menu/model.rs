@@ -41,6 +41,10 @@ pub enum Deed {
     Start,
     /// The last game begins again.
     Again,
+    /// The game in which a beginner learns to play begins.
+    Tutorial,
+    /// The last shot is seen again.
+    Replay,
     /// The game goes on.
     Resume,
     /// The game ends.
@@ -88,6 +92,22 @@ impl Menu {
         self.opened.clear();
         self.waits = None;
         self.enter(name);
+    }
+
+    /// Whoever sees the program for the first time is shown where one learns to play. Whether that
+    /// is so; it is known from then on.
+    pub fn welcome(&mut self) -> bool {
+        if self.settings.welcomed {
+            return false;
+        }
+        self.settings.welcomed = true;
+        let teaches = |item: &Item| item.effect == Effect::Does(Act::Tutorial);
+        let line = self.seen().and_then(|(page, _)| page.items.iter().position(teaches));
+        if let Some(line) = line {
+            self.mean(line);
+            self.notice = Some(Notice::Welcome);
+        }
+        true
     }
 
     /// Closes all.
@@ -254,6 +274,8 @@ impl Menu {
             Effect::Does(Act::Back) => self.back(),
             Effect::Does(Act::Start) => Some(Deed::Start),
             Effect::Does(Act::Again) => Some(Deed::Again),
+            Effect::Does(Act::Tutorial) => Some(Deed::Tutorial),
+            Effect::Does(Act::Replay) => Some(Deed::Replay),
             Effect::Does(Act::Resume) => Some(Deed::Resume),
             Effect::Does(Act::Leave) => Some(Deed::Leave),
             Effect::Does(Act::Quit) => Some(Deed::Quit),

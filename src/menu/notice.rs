@@ -23,6 +23,8 @@ pub enum Notice {
     },
     /// All keys are as they are shipped.
     UsualKeys,
+    /// The program is new to whoever sees it.
+    Welcome,
     /// A gamepad is gone.
     PadLost,
 }

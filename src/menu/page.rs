@@ -48,6 +48,10 @@ pub enum Act {
     Start,
     /// The same game begins again.
     Again,
+    /// The game in which a beginner learns to play begins.
+    Tutorial,
+    /// The last shot is seen again.
+    Replay,
     /// The game goes on.
     Resume,
     /// The game ends, and the main menu opens.

@@ -48,6 +48,8 @@ pub struct Settings {
     pub steering: Steering,
     /// A gamepad shakes with contacts.
     pub rumble: bool,
+    /// Whoever plays was told of the tutorial.
+    pub welcomed: bool,
 }
 
 impl Default for Settings {
@@ -67,6 +69,7 @@ impl Default for Settings {
             haptic: HapticChoice::None,
             steering: Steering::ByPlace,
             rumble: true,
+            welcomed: false,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::look::{BallLook, BallSet};
 use crate::ball::{BallPlace, BallState, POOL_RADIUS_M};
 use crate::cue::{CuePose, TIP_RADIUS_M};
 use crate::ids::BallId;
-use crate::input::{CameraPose, HumanMode, HumanView};
+use crate::input::{BallWay, CameraPose, HumanMode, HumanView};
 use crate::physics::Snapshot;
 use glam::{DQuat, DVec2, DVec3};
 
@@ -16,6 +16,8 @@ const LINE_HALF_WIDTH_M: f32 = 0.0016;
 const CALLED_BALL_M: f64 = 1.35 * POOL_RADIUS_M;
 /// How far the ring of a called pocket is from its edge [m].
 const CALLED_POCKET_GAP_M: f64 = 0.012;
+/// Radius of the ring round what is pointed at [m].
+const POINTED_M: f64 = 0.022;
 /// Height of such rings [m]: above the rails, so that they hide nothing of it.
 const RING_HEIGHT_M: f64 = 0.045;
 /// Half the width of their line [m].
@@ -228,6 +230,10 @@ impl DrawList {
                 list.show_call(view);
             }
             HumanMode::Placing => list.show_placing(view, radii),
+            HumanMode::Pointing => {
+                list.show_call(view);
+                view.pointing.into_iter().for_each(|at| list.ring(at, POINTED_M));
+            }
             HumanMode::HoldingStylus => list.show_call(view),
             HumanMode::Choosing | HumanMode::Watching | HumanMode::Paused => {}
         }
@@ -261,9 +267,14 @@ impl DrawList {
 
     /// Where balls will go, and where they come to rest.
     fn show_ways(&mut self, view: &HumanView, radii: &Radii) {
-        for way in view.ways.iter() {
+        self.show_traces(&view.ways, view.cue_ball, radii);
+    }
+
+    /// Ways of balls, and where they come to rest; that of the cue ball is white.
+    pub fn show_traces(&mut self, ways: &[BallWay], cue_ball: BallId, radii: &Radii) {
+        for way in ways {
             let radius_m = radii.of(way.ball);
-            let [r, g, b] = match way.ball == view.cue_ball {
+            let [r, g, b] = match way.ball == cue_ball {
                 true => [1.0, 1.0, 1.0],
                 false => radii.set.look(way.ball).colour.map(|channel| 0.25 + 0.75 * channel),
             };

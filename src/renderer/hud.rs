@@ -11,7 +11,7 @@ use super::words::Words;
 use crate::cue::OFFSET_LIMIT;
 use crate::events::{BallInHand, Group, PlayerState, ShotKind};
 use crate::ids::{BallId, PlayerId};
-use crate::input::{HumanMode, HumanView};
+use crate::input::{HumanMode, HumanView, Tutor};
 use crate::rules::Texts;
 
 /// The speed at which the gauge of strength is full [m/s]: a hard break.
@@ -118,7 +118,10 @@ impl Hud {
             let mut told = (**turn).clone();
             if matches!(
                 view.mode,
-                HumanMode::Aiming | HumanMode::HoldingStylus | HumanMode::Stroking
+                HumanMode::Aiming
+                    | HumanMode::Pointing
+                    | HumanMode::HoldingStylus
+                    | HumanMode::Stroking
             ) {
                 // The ball that was in hand lies on the table.
                 told.ball_in_hand = BallInHand::None;
@@ -148,9 +151,10 @@ impl Hud {
                 .replace("{remedy}", &refused.remedy)
         }));
         let call = match view.mode {
-            HumanMode::Aiming | HumanMode::HoldingStylus | HumanMode::Stroking => {
-                view.call.as_ref().map(|view| &view.call)
-            }
+            HumanMode::Aiming
+            | HumanMode::Pointing
+            | HumanMode::HoldingStylus
+            | HumanMode::Stroking => view.call.as_ref().map(|view| &view.call),
             _ => board.call.as_ref(),
         };
         hud.call = call.filter(|_| board.over.is_none()).map(|call| texts.call(call));
@@ -186,6 +190,39 @@ impl Hud {
 }
 
 impl Hud {
+    /// What stands over a film of the last shot that is so far, of so many seconds, at this rate.
+    pub fn of_film(
+        board: &Scoreboard,
+        (at_s, whole_s): (f64, f64),
+        rate: f64,
+        words: &Words,
+    ) -> Self {
+        let text = words.fill("film_place", "at", &format!("{at_s:.1}"));
+        let text = text.replace("{whole}", &format!("{whole_s:.1}"));
+        let fill = if 0.0 < whole_s { (at_s / whole_s).clamp(0.0, 1.0) } else { 1.0 };
+        Hud {
+            seats: seats(board, words),
+            message: vec![words.fill("film", "rate", &rate.to_string())],
+            hint: words.get("film_hint"),
+            strength: Some(Gauge { fill, text }),
+            ..Hud::default()
+        }
+    }
+
+    /// The same while somebody shows how to play.
+    #[must_use]
+    pub fn with_lesson(mut self, tutor: &Tutor, is_by_pad: bool, words: &Words) -> Self {
+        let (at, of) = tutor.count();
+        let title = words.fill("tutor", "at", &at.to_string()).replace("{of}", &of.to_string());
+        let name = tutor.lesson().name();
+        let text = match is_by_pad {
+            true => words.get(&format!("{name}_pad")),
+            false => words.get(name),
+        };
+        self.message = [title, text].into_iter().chain(self.message.drain(1..)).collect();
+        self
+    }
+
     /// The same with the panel of a haptic device, and with other words where a mouse moves the
     /// hand that holds this tool.
     #[must_use]
@@ -198,7 +235,7 @@ impl Hud {
     ) -> Self {
         let Some(tool) = by_mouse else { return Hud { felt, ..self } };
         let hint = match (tool, view.mode) {
-            (_, HumanMode::Paused | HumanMode::Placing) => self.hint,
+            (_, HumanMode::Paused | HumanMode::Placing | HumanMode::Pointing) => self.hint,
             (FeltTool::Stylus, _) => words.get("felt_touch"),
             (FeltTool::Cue, HumanMode::Stroking) => words.get("felt_stroke"),
             (FeltTool::Cue, HumanMode::Aiming) => words.get("felt_aim"),
@@ -265,6 +302,7 @@ fn hint(board: &Scoreboard, view: &HumanView, words: &Words) -> String {
         HumanMode::Placing => words.get("not_there"),
         HumanMode::Aiming if view.is_practice => words.get("training"),
         HumanMode::Aiming => words.get("aim"),
+        HumanMode::Pointing => words.get("pointing"),
         HumanMode::HoldingStylus => words.get("stylus"),
         HumanMode::Stroking => words.get("stroke"),
         HumanMode::Paused => String::new(),

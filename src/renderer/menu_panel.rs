@@ -90,6 +90,7 @@ fn said(notice: &Notice, words: &Words) -> String {
             .fill("key_refused", "key", &words.key(*control))
             .replace("{action}", &words.action(*of)),
         Notice::UsualKeys => words.get("keys_usual"),
+        Notice::Welcome => words.get("welcome"),
         Notice::PadLost => words.get("pad_lost"),
     }
 }

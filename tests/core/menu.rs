@@ -17,8 +17,8 @@ use hapticbillard::input::{
     Action, Button, HandInput, HumanMode, HumanView, Key, PadAxis, PadButton, PadInput, RawInput,
 };
 use hapticbillard::menu::{
-    Act, Deed, Effect, GameChoice, Lobby, Menu, MenuInput, Order, Pages, Pointed, Range, Seat,
-    Setting, Settings, TableChoice, Tongue, Wheel, WheelPage,
+    Act, Begin, Deed, Effect, GameChoice, Lobby, Menu, MenuInput, Order, Pages, Pointed, Range,
+    Seat, Setting, Settings, TableChoice, Tongue, Wheel, WheelPage,
 };
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words, player_names};
 use hapticbillard::rules::Language;
@@ -281,7 +281,7 @@ fn a_held_key_goes_along_lines_and_chooses_nothing_twice() {
     assert_eq!(page(&lobby).1, "table");
     lobby.hear(key(Key::Up, true), None);
     lobby.hear(key(Key::Up, true), None);
-    assert_eq!(lobby.hear(key(Key::Enter, true), None), [Order::Begin { again: false }]);
+    assert_eq!(lobby.hear(key(Key::Enter, true), None), [Order::Begin(Begin::Set)]);
     lobby.began();
     // The game hears nothing of the key that began it, and all of the next press.
     assert!(lobby.hear(key(Key::Enter, true), None).is_empty());
@@ -416,12 +416,13 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
                 Order::Tell(report) => {
                     toy.iter_mut().for_each(|game| game.hear(report));
                 }
-                Order::Begin { .. } => {
+                Order::Begin(_) => {
                     (games, toy) = (games + 1, Some(Toy::default()));
                     lobby.began();
                 }
                 Order::Clear => toy = None,
                 Order::Apply | Order::Rebound | Order::Say(_) | Order::Do(_) => {}
+                Order::Replay(_) | Order::Onlook(_) => {}
                 Order::Quit => {
                     // As if the program were started again.
                     (quits, toy) = (quits + 1, None);

@@ -6,7 +6,7 @@ use super::kept_settings::Kept;
 use super::{PlayArgs, Status, recording, stop_at_interrupt, tidy_up};
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{Bindings, CameraPose, HandInput, Human, HumanView, LedHuman};
-use hapticbillard::menu::{HapticChoice, Menu, Pages, Settings};
+use hapticbillard::menu::{Begin, HapticChoice, Menu, Pages, Settings};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{DrawList, Radii, Words, player_names};
 use hapticbillard::replay::{RecordedInput, Recording};
@@ -16,7 +16,7 @@ use hapticbillard::tick::{Finished, FrameSource, Inflow, Pace};
 use hapticbillard::units::Tick;
 use hapticbillard_actors::conductor::RunError;
 use hapticbillard_actors::error::Error;
-use hapticbillard_actors::files::{LoadedScene, keep_picture};
+use hapticbillard_actors::files::{LoadedScene, keep_picture, load_scene};
 use hapticbillard_actors::game::{LIMIT, Stage};
 use hapticbillard_actors::haptic::{
     DeviceRecorder, FeltMouse, Plan, Recorded, Seat, Started, Stylus, Telemetry, Watch,
@@ -33,6 +33,8 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// The scene of the tutorial.
+const TUTORIAL: &str = "tutorial";
 /// How far the table behind the main menu is to the left of the middle [m].
 const ASIDE_M: f64 = -0.55;
 
@@ -79,6 +81,7 @@ pub fn play_in_window(
         stage,
         is_first: begins,
         is_set: !begins,
+        is_lesson: false,
         record: None,
         recorder: None,
         telemetry: None,
@@ -169,6 +172,8 @@ struct House<'a> {
     is_first: bool,
     /// The stage is as it was set in the menus.
     is_set: bool,
+    /// It is the tutorial.
+    is_lesson: bool,
     record: Option<PathBuf>,
     recorder: Option<DeviceRecorder>,
     telemetry: Option<Telemetry>,
@@ -182,16 +187,23 @@ impl Host for House<'_> {
         &mut self,
         settings: Option<&Settings>,
         language: Language,
-        again: bool,
+        begin: Begin,
     ) -> Result<Prepared, Error> {
         let is_first = std::mem::take(&mut self.is_first);
-        match settings.filter(|_| !again) {
-            Some(settings) => (self.stage, self.is_set) = (stage_of(settings, language)?, true),
-            None if !is_first => {
+        match (begin, settings) {
+            (Begin::Tutorial, _) => {
+                self.stage = Stage::new(&load_scene(TUTORIAL)?, TUTORIAL)?;
+                (self.is_set, self.is_lesson) = (true, true);
+            }
+            (Begin::Set, Some(settings)) => {
+                self.stage = stage_of(settings, language)?;
+                (self.is_set, self.is_lesson) = (true, false);
+            }
+            _ if !is_first => {
                 let overrides = self.stage.header().overrides;
                 self.stage = self.stage.with(Overrides { seed: Some(new_seed()), ..overrides });
             }
-            None => {}
+            _ => {}
         }
         let PlayArgs { telemetry, record_device, speed, .. } = self.args;
         // What the command line wants to be written is of one game; no other writes over it.
@@ -202,8 +214,9 @@ impl Host for House<'_> {
         self.record = recording(self.args, is_first);
         let mut felt = felt(&self.stage, self.stage.scene.is_led(), telemetry)?;
         self.telemetry = felt.as_mut().and_then(|felt| felt.telemetry.take());
-        let (prepared, recorder) =
+        let (mut prepared, recorder) =
             prepared(&self.stage, None, felt, self.record.clone(), device, *speed)?;
+        prepared.setup.is_lesson = self.is_lesson;
         self.recorder = recorder;
         Ok(prepared)
     }
@@ -269,7 +282,7 @@ struct Replay<'a> {
 }
 
 impl Host for Replay<'_> {
-    fn prepare(&mut self, _: Option<&Settings>, _: Language, _: bool) -> Result<Prepared, Error> {
+    fn prepare(&mut self, _: Option<&Settings>, _: Language, _: Begin) -> Result<Prepared, Error> {
         let recording = self.recording.take();
         Ok(prepared(self.stage, recording, None, None, None, 1.0)?.0)
     }
@@ -322,6 +335,8 @@ fn prepared(
         radii: radii.clone(),
         felt: shown,
         heard,
+        adviser: cast.adviser.take(),
+        is_lesson: false,
     };
     let hand = cast.human.take().filter(|_| replay.is_none());
     let table = stage.table.clone();
@@ -333,7 +348,7 @@ fn prepared(
     let (players, is_led) = (stage.scene.human_players(), stage.scene.is_led());
     let tip_radius_m = stage.scene.parameters().tip_radius_m;
     let play = move |ports: Ports| {
-        let Ports { raw, view, world, sink, meters } = ports;
+        let Ports { raw, view, world, film, sink, meters } = ports;
         let started = plan.map(|plan| Seat::start_watched(plan, watch)).transpose();
         let started = started.map_err(|error| RunError::Start(error.to_string()))?;
         let (haptic, stylus) = match started {
@@ -375,6 +390,7 @@ fn prepared(
             record,
             sinks: vec![sink],
             world: Some(world),
+            film: Some(film),
             sound: line,
             haptic,
             physics_thread,

@@ -1,9 +1,9 @@
 //! What a person begins.
 
-use super::Human;
+use super::{Human, Stage};
 use crate::cue::Aim;
 use crate::events::{Event, MenuAction};
-use crate::input::Action;
+use crate::input::{Action, View};
 
 impl Human {
     /// An action begins. True if the game shall end.
@@ -13,7 +13,9 @@ impl Human {
             Action::Strike => self.press_key(),
             Action::Pause => self.pause_or_resume(),
             Action::Quit => return self.paused,
-            Action::BirdsEye => self.is_bird = !self.is_bird,
+            Action::BirdsEye if self.view == View::Bird => self.view = View::Usual,
+            Action::BirdsEye => self.view = View::Bird,
+            Action::NextView => self.view = self.view.next(),
             Action::Camera => self.lead_camera_or_cue(),
             Action::TipMiddle if !self.paused => {
                 let middle = |aim: &mut Aim| {
@@ -29,11 +31,21 @@ impl Human {
             Action::NextPocket | Action::NextBall | Action::Safety | Action::PushOut => {
                 self.step(action);
             }
+            Action::PointPocket => self.point_or_not(),
             Action::AimAid => self.ahead.aid = self.ahead.aid.next(),
             Action::Panel => self.overlay = !self.overlay,
             _ => {}
         }
         false
+    }
+
+    /// The cue is held as somebody has proposed.
+    pub(super) fn hold_so(&mut self, aim: Aim) {
+        if self.paused || self.camera.is_free() || !matches!(self.stage, Stage::Aiming) {
+            return;
+        }
+        self.raised_rad = aim.elevation_rad;
+        self.change_aim(|held| *held = aim);
     }
 
     /// Time stands still, or goes on.

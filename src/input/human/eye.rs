@@ -1,19 +1,35 @@
 //! What the person sees, and from where.
 
 use super::super::camera::Viewpoint;
-use super::super::{AimAid, HumanMode, HumanView};
+use super::super::{AimAid, HumanMode, HumanView, View, sight};
 use super::{Human, KeyStroke, Stage};
+use crate::physics::Snapshot;
+use crate::table::Table;
+use crate::tick::Participant;
+use glam::DVec2;
+use std::sync::Arc;
 
 impl Human {
+    /// Eyes without a hand, behind a cue ball that is about to be struck in this direction [rad],
+    /// which they follow.
+    pub fn onlooker(table: Arc<Table>, seen: &Snapshot, azimuth_rad: f64) -> Self {
+        let mut eyes = Human::new(Vec::new(), table);
+        let _ = eyes.start(seen);
+        (eyes.view, eyes.only_looks) = (View::Follow, true);
+        eyes.aim.azimuth_rad = azimuth_rad;
+        eyes
+    }
+
     /// What the picture shows of the player now.
     pub fn view(&self) -> HumanView {
         let mut view = HumanView {
             camera: self.camera.pose(),
+            rides: self.camera.rides().map(|at| (self.cue_ball(), at)),
             aim: self.aim,
             strength_m_s: self.strength_m_s,
             is_practice: self.is_practice,
             cue_ball: self.cue_ball(),
-            look: self.camera.looking(self.is_bird),
+            look: self.camera.looking(self.view),
             overlay: self.overlay,
             ways: self.ways_ahead(),
             expected_m_s: self.expected_m_s(),
@@ -27,6 +43,9 @@ impl Human {
                 view.placing = Some(placing.at);
                 view.placing_ball = placing.ball;
                 view.placing_allowed = placing.is_allowed(&self.seen, &self.table, self.radius_m);
+            }
+            Stage::Aiming if self.pointing.is_some() => {
+                (view.mode, view.pointing) = (HumanMode::Pointing, self.pointing);
             }
             Stage::Aiming if self.stylus_leads() => {
                 view.mode = HumanMode::HoldingStylus;
@@ -60,15 +79,27 @@ impl Human {
         }
     }
 
-    /// The camera goes where the stage wants it.
+    /// The camera goes where the player likes to look from, or the stage wants it.
     pub(super) fn follow_with_camera(&mut self) {
-        let behind_cue = Viewpoint::Cue { ball: self.centre, aim: self.aim };
-        let viewpoint = match self.stage {
-            Stage::Placing(_) => Viewpoint::Bird,
-            _ if self.is_bird => Viewpoint::Bird,
-            Stage::Waiting | Stage::Choosing => Viewpoint::Overview,
-            Stage::Aiming | Stage::Stroking(_) => behind_cue,
-            Stage::Struck => Viewpoint::Watch { ball: self.centre, aim: self.aim },
+        // The cue ball lies where it is aimed at, or where it was seen last.
+        let seen = match self.stage {
+            Stage::Waiting | Stage::Choosing | Stage::Placing(_) => {
+                sight::place_of(&self.seen, self.cue_ball())
+            }
+            Stage::Aiming | Stage::Stroking(_) | Stage::Struck => None,
+        };
+        let (ball, aim) = (seen.unwrap_or(self.centre), self.aim);
+        let viewpoint = match (&self.stage, self.view) {
+            (Stage::Placing(_), _) | (_, View::Bird) => Viewpoint::Bird,
+            (Stage::Aiming, _) if self.pointing.is_some() => Viewpoint::Bird,
+            (_, View::Round) => Viewpoint::Round { ball },
+            (_, View::Follow) => Viewpoint::Follow { ball, aim },
+            (_, View::Head) => Viewpoint::Beside(DVec2::NEG_X),
+            (_, View::Foot) => Viewpoint::Beside(DVec2::X),
+            (_, View::Side) => Viewpoint::Beside(DVec2::NEG_Y),
+            (Stage::Waiting | Stage::Choosing, View::Usual) => Viewpoint::Overview,
+            (Stage::Aiming | Stage::Stroking(_), View::Usual) => Viewpoint::Cue { ball, aim },
+            (Stage::Struck, View::Usual) => Viewpoint::Watch { ball, aim },
         };
         self.camera.go_to(viewpoint);
     }

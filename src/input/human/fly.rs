@@ -7,9 +7,6 @@ use crate::haptic::Leads;
 use crate::input::Action;
 use glam::{DVec2, DVec3};
 
-/// How much wider and longer the table is than its bed [m].
-const RAILS_M: DVec2 = DVec2::new(0.3, 0.3);
-
 impl Human {
     /// What a stylus is for now.
     pub fn stylus_leads_what(&self) -> Leads {
@@ -17,6 +14,7 @@ impl Human {
             _ if self.paused => Leads::Pointer,
             _ if self.camera.is_free() => Leads::Camera,
             Stage::Placing(_) | Stage::Choosing => Leads::Pointer,
+            Stage::Aiming if self.pointing.is_some() => Leads::Pointer,
             Stage::Waiting | Stage::Aiming | Stage::Stroking(_) | Stage::Struck => Leads::Cue,
         }
     }
@@ -47,9 +45,7 @@ impl Human {
 
     fn fly(&mut self, drive: &Drive) {
         if !self.paused && self.camera.is_free() {
-            let bed = self.table.bed.as_ref();
-            let size = bed.map_or(DVec2::ZERO, |bed| DVec2::new(bed.length_m, bed.width_m));
-            self.camera.drive(drive, size + RAILS_M);
+            self.camera.drive(drive);
         }
     }
 
@@ -75,6 +71,9 @@ impl Human {
             return;
         }
         let on_bed = self.camera.pose().on_level(at, self.radius_m);
+        if let (Some(at), Some(_), false) = (on_bed, self.pointing, self.paused) {
+            self.point_at(at);
+        }
         if let (Stage::Placing(placing), Some(at), false) = (&mut self.stage, on_bed, self.paused) {
             placing.hold_at(at, self.table.bed.as_ref(), self.radius_m);
         }

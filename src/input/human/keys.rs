@@ -97,6 +97,9 @@ impl Human {
         if (right, up) != (0.0, 0.0) {
             let by = DVec2::new(right, up);
             match &mut self.stage {
+                Stage::Aiming if self.pointing.is_some() => {
+                    self.point_on(by * (2.0 * PLACING_M_PER_S * TICK_S));
+                }
                 Stage::Placing(placing) => {
                     let by = by * (PLACING_M_PER_S * fine);
                     placing.moved(by, self.table.bed.as_ref(), self.radius_m);

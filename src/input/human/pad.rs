@@ -43,7 +43,7 @@ impl Human {
     /// What the sticks do in one tick.
     pub(super) fn hold_sticks(&mut self) {
         let Sticks { left, right, .. } = self.sticks;
-        let looks = self.held.has(Action::Look) || self.camera.is_free();
+        let looks = self.held.has(Action::Look) || self.camera.is_free() || self.only_looks;
         if looks && right != DVec2::ZERO {
             let by = right * (LOOK_RAD_PER_S * TICK_S);
             self.camera.look(-by.x, by.y);
@@ -54,6 +54,9 @@ impl Human {
         let fine = self.fine() * TICK_S;
         if left != DVec2::ZERO {
             match &mut self.stage {
+                Stage::Aiming if self.pointing.is_some() => {
+                    self.point_on(left * (STICK_PLACING * PLACING_M_PER_S * TICK_S));
+                }
                 Stage::Placing(placing) => {
                     let by = left * (STICK_PLACING * PLACING_M_PER_S * fine);
                     placing.moved(by, self.table.bed.as_ref(), self.radius_m);

@@ -92,6 +92,37 @@ impl Human {
         }
     }
 
+    /// A pocket is to be pointed at, or is no longer; only where pockets are called.
+    pub(super) fn point_or_not(&mut self) {
+        if self.paused || self.camera.is_free() || !matches!(self.stage, Stage::Aiming) {
+            return;
+        }
+        let Some(sight) = self.call_sight().filter(Sight::calls_pockets) else { return };
+        let called = self.calling.view(&sight).and_then(|view| view.pocket_at);
+        let begin = called.map_or(DVec2::ZERO, |(at, _)| at);
+        self.pointing = if self.pointing.is_some() { None } else { Some(begin) };
+    }
+
+    /// What is pointed at goes so far over the bed [m].
+    pub(super) fn point_on(&mut self, by: DVec2) {
+        if let Some(at) = self.pointing {
+            self.point_at(at + by);
+        }
+    }
+
+    /// This point of the bed is pointed at [m].
+    pub(super) fn point_at(&mut self, at: DVec2) {
+        let bed = self.table.bed.as_ref();
+        let half = bed.map_or(DVec2::ZERO, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m));
+        let at = at.clamp(-half, half);
+        self.pointing = Some(at);
+        let mut calling = std::mem::take(&mut self.calling);
+        if let Some(sight) = self.call_sight() {
+            calling.point_at(at, &sight);
+        }
+        self.calling = calling;
+    }
+
     /// Says what the stroke that begins is meant to do.
     pub(super) fn announce(&mut self) {
         let mut calling = std::mem::take(&mut self.calling);

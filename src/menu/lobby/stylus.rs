@@ -18,8 +18,10 @@ impl Lobby {
 
     /// Whether a stylus points at things in the window now, and a pointer belongs there.
     pub fn is_pointed_at(&self) -> bool {
-        let mode =
-            matches!(self.mode, HumanMode::Placing | HumanMode::Choosing | HumanMode::Paused);
+        let mode = matches!(
+            self.mode,
+            HumanMode::Placing | HumanMode::Pointing | HumanMode::Choosing | HumanMode::Paused
+        );
         let is_in_game = self.game == Game::Running && mode && !self.is_free;
         self.is_menu_open() || self.wheel.is_some() || is_in_game
     }
@@ -55,7 +57,8 @@ impl Lobby {
         if self.is_menu_open() {
             return self.point(pointed);
         }
-        if self.game != Game::Running || self.mode != HumanMode::Placing || self.is_free {
+        let points = matches!(self.mode, HumanMode::Placing | HumanMode::Pointing);
+        if self.game != Game::Running || !points || self.is_free {
             return Vec::new();
         }
         let from_middle = (at - 0.5 * self.window) / self.window.y.max(1.0);
@@ -84,7 +87,7 @@ impl Lobby {
             (Game::Running, HumanMode::Choosing, Some(option)) => {
                 vec![Order::Tell(HandInput::Picked { option })]
             }
-            (Game::Running, HumanMode::Placing, _) => {
+            (Game::Running, HumanMode::Placing | HumanMode::Pointing, _) => {
                 self.has_told_click = true;
                 vec![Order::Tell(HandInput::Act { action: Action::Stroke, down: true })]
             }

@@ -10,7 +10,7 @@ use hapticbillard::events::ShotKind;
 use hapticbillard::haptic::simulated::Leg;
 use hapticbillard::haptic::{Buttons, ReachSettings};
 use hapticbillard::input::{Action, HandInput, HumanMode, StylusSays};
-use hapticbillard::menu::{Lobby, Menu, Order, Pages, Pointed, Settings};
+use hapticbillard::menu::{Begin, Lobby, Menu, Order, Pages, Pointed, Settings};
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use hapticbillard::scene::{Overrides, Scene};
@@ -295,7 +295,7 @@ fn whole_game_by_stylus_only() {
     let mut seated = Seated::new();
     assert!(seated.choose("play", None).is_empty());
     assert_eq!(seated.choose("game", Some(0.9)), [Order::Apply]);
-    assert_eq!(seated.choose("start", None), [Order::Begin { again: false }]);
+    assert_eq!(seated.choose("start", None), [Order::Begin(Begin::Set)]);
     seated.begin();
 
     let mut strokes = 0;

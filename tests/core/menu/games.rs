@@ -12,7 +12,7 @@ use hapticbillard::input::feel::{
 use hapticbillard::input::{
     Button, HandInput, HumanMode, Key, PadAxis, PadButton, PadInput, RawInput, shaped,
 };
-use hapticbillard::menu::{GameChoice, Lobby, Menu, Order, Pages, Pointed, Settings};
+use hapticbillard::menu::{Begin, GameChoice, Lobby, Menu, Order, Pages, Pointed, Settings};
 use hapticbillard::renderer::{MenuLayout, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use hapticbillard::scene::{Overrides, Scene};
@@ -298,7 +298,7 @@ pub fn whole_game(device: Device, port: PadPort) {
     assert_eq!(seated.choose("game", Some(0.9)), [Order::Apply]);
     let game = seated.lobby().menu().unwrap().settings.game;
     assert_eq!(game, GameChoice::EightBall);
-    assert_eq!(seated.choose("start", None), [Order::Begin { again: false }]);
+    assert_eq!(seated.choose("start", None), [Order::Begin(Begin::Set)]);
     seated.begin();
 
     let table = Table::preset("pool-9ft").unwrap();

@@ -92,6 +92,7 @@ impl Stage {
             referee: self.referee.clone(),
             players: Vec::new(),
             human: None,
+            adviser: None,
             names: vec!["A".into(), "B".into()],
         }
     }

@@ -1,0 +1,98 @@
+//! Somebody who looks over a person's shoulder and says what a computer would play.
+//!
+//! Nothing of it is part of the game: it hears what everybody hears, and whoever shows the answer
+//! may forget it.
+
+use super::insight::insight_of_thoughts;
+use super::mind::{Decision, Mind, MindSetup, Task, TaskKind, Workers};
+use crate::cue::Aim;
+use crate::events::{Insight, Topic, Topics, Turn};
+use crate::physics::Snapshot;
+use crate::rules::{self, Referee};
+use crate::tick::{Delivered, Participant};
+use std::sync::{Arc, OnceLock};
+
+/// The adviser of a game.
+#[derive(Debug, Clone)]
+pub struct Adviser {
+    /// What its mind is made of; made when somebody asks.
+    setup: Arc<MindSetup>,
+    mind: Arc<OnceLock<Mind>>,
+    /// Hears what the referee of the game hears, and so knows what that knows.
+    referee: Referee,
+}
+
+/// What it was asked; the answer is computed wherever there is time.
+#[derive(Debug, Clone)]
+pub struct Question {
+    setup: Arc<MindSetup>,
+    mind: Arc<OnceLock<Mind>>,
+    task: Task,
+}
+
+/// What it would play.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Advice {
+    /// What it considered.
+    pub insight: Insight,
+    /// How the cue is held.
+    pub aim: Aim,
+    /// Speed of the tip at the contact [m/s].
+    pub speed_m_s: f64,
+    /// The chance that it does what it is meant to, for the arm that the mind reckons with.
+    pub chance: f64,
+}
+
+impl Adviser {
+    /// Somebody with such a mind. `referee` is that of the game, before the game.
+    pub fn new(setup: MindSetup, referee: Referee) -> Self {
+        Adviser { setup: Arc::new(setup), mind: Arc::default(), referee }
+    }
+
+    /// What it must hear.
+    pub fn topics(&self) -> Topics {
+        rules::topics(self.referee.game()).or(Topics::of(&[Topic::Command, Topic::Turn]))
+    }
+
+    /// The game begins with this table.
+    pub fn start(&mut self, table: &Snapshot) {
+        let _ = self.referee.start(table);
+    }
+
+    /// Hears what happened.
+    pub fn hear(&mut self, delivered: &Delivered) {
+        let _ = self.referee.collect(delivered);
+    }
+
+    /// What it would play in this turn, on this table.
+    pub fn ask(&self, turn: Arc<Turn>, table: &Snapshot) -> Question {
+        let task = Task {
+            kind: TaskKind::Shoot,
+            lies: table.balls.clone(),
+            referee: self.referee.clone(),
+            seed: u64::from(turn.shot_number),
+            turn,
+            played_from: None,
+            has_asked: false,
+        };
+        Question { setup: self.setup.clone(), mind: self.mind.clone(), task }
+    }
+}
+
+impl Question {
+    /// Thinks. None if nothing can be played.
+    pub fn answer(&self, workers: &dyn Workers) -> Option<Advice> {
+        let mind = self.mind.get_or_init(|| Mind::new((*self.setup).clone()));
+        let deliberation = mind.deliberate(&self.task, workers);
+        let Decision::Shoot(planned) = deliberation.decision else { return None };
+        let turn = &self.task.turn;
+        let cue_ball = self.task.lies.iter().find(|ball| ball.id == turn.cue_ball)?;
+        let cue_ball = cue_ball.position.truncate();
+        Some(Advice {
+            insight: insight_of_thoughts(turn.player, cue_ball, &deliberation.thoughts, &[]),
+            aim: planned.aim,
+            speed_m_s: planned.speed_m_s,
+            chance: planned.success,
+        })
+    }
+}
