@@ -74,12 +74,12 @@ impl Profile {
     /// All.
     pub const ALL: [Profile; 7] = [
         Profile::Always,
+        Profile::Replay,
         Profile::Menu,
         Profile::Cue,
         Profile::Choice,
         Profile::Camera,
         Profile::Pause,
-        Profile::Replay,
     ];
 
     /// The name of its file.

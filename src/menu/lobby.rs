@@ -316,7 +316,8 @@ impl Lobby {
             (Game::None | Game::Over, _) => Profile::Pause,
             (Game::Running, HumanMode::Paused) if !self.is_resuming => Profile::Pause,
             (Game::Running, HumanMode::Choosing) => Profile::Choice,
-            (Game::Running, _) if self.looks_on => Profile::Camera,
+            // Whoever leads an eye by hand moves it with the keys of the tip.
+            (Game::Running, _) if self.looks_on && !self.is_free => Profile::Camera,
             (Game::Running, _) => Profile::Cue,
         };
         let ended = self.controls.switch(profile);

@@ -305,7 +305,7 @@ fn a_held_key_goes_along_lines_and_chooses_nothing_twice() {
 fn a_scale_is_pulled_only_while_the_button_is_held() {
     let mut lobby = Lobby::new(Some(menu()));
     lobby.open_main();
-    for key in [Key::Down, Key::Enter, Key::Down] {
+    for key in [Key::Down, Key::Down, Key::Enter, Key::Down] {
         lobby.hear(RawInput::Key { key, down: true }, None);
     }
     let at = |share| Some(Pointed { line: 1, share: Some(share), is_scale: true });

@@ -56,8 +56,8 @@ fn a_controller_belongs_to_several_profiles_and_a_profile_to_several_controllers
         Profile::ALL.iter().filter(|one| profiles.is_active(controller, **one)).count()
     };
     assert_eq!(of(Controller::Window), Profile::ALL.len(), "what is always heard");
-    assert_eq!(of(Controller::Cue), 1);
-    assert_eq!((of(Controller::Eye), of(Controller::Leave)), (4, 2));
+    assert_eq!((of(Controller::Cue), of(Controller::Film)), (2, 1));
+    assert_eq!((of(Controller::Eye), of(Controller::Leave)), (5, 2));
     let wrong = |text: &'static str| {
         let swap = |(name, old): &(&'static str, &'static str)| {
             (*name, if *name == "cue" { text } else { *old })
@@ -134,10 +134,10 @@ fn a_file_says_what_it_says_and_the_rest_is_as_usual() {
 fn whoever_loses_a_key_is_named_and_nobody_loses_the_menus() {
     let mut keys = Bindings::shipped();
     let taken = |losers: &[Action]| Bound::Done { losers: losers.to_vec() };
-    assert_eq!(keys.bind(Action::TurnLeft, letter('j'), Beside::Instead), taken(&[]));
-    assert_eq!(keys.keys(Action::TurnLeft), [letter('j')]);
+    assert_eq!(keys.bind(Action::TurnLeft, letter('0'), Beside::Instead), taken(&[]));
+    assert_eq!(keys.keys(Action::TurnLeft), [letter('0')]);
     assert_eq!(keys.bind(Action::TurnLeft, letter('b'), Beside::Added), taken(&[Action::NextBall]));
-    assert_eq!(keys.keys(Action::TurnLeft), [letter('j'), letter('b')]);
+    assert_eq!(keys.keys(Action::TurnLeft), [letter('0'), letter('b')]);
     assert_eq!(keys.keys(Action::NextBall), [Control::Pad(PadButton::Left)], "the other device's");
     let pad = Control::Pad(PadButton::Y);
     assert_eq!(keys.bind(Action::TurnLeft, pad, Beside::Instead), taken(&[Action::TipMiddle]));
@@ -164,23 +164,23 @@ fn what_is_held_means_what_it_meant_until_it_is_let_go() {
     assert_eq!(controls.hear(letter('a'), true), turn(Edge::Repeated));
     // Another key is bound while this one is held.
     let mut keys = Bindings::shipped();
-    keys.bind(Action::TurnLeft, letter('j'), Beside::Instead);
+    keys.bind(Action::TurnLeft, letter('0'), Beside::Instead);
     controls.rebind(keys);
-    assert_eq!(controls.hear(letter('j'), true), None, "it goes on already");
+    assert_eq!(controls.hear(letter('0'), true), None, "it goes on already");
     assert_eq!(controls.hear(letter('a'), false), None, "the other key is held");
-    assert_eq!(controls.hear(letter('j'), false), turn(Edge::Released));
+    assert_eq!(controls.hear(letter('0'), false), turn(Edge::Released));
     assert_eq!(controls.hear(letter('a'), true), None, "it means nothing now");
 
     // A profile that does not hear it ends it; the key means nothing until it is pressed again.
-    assert_eq!(controls.hear(letter('j'), true), turn(Edge::Pressed));
+    assert_eq!(controls.hear(letter('0'), true), turn(Edge::Pressed));
     let looks = controls.hear(letter('c'), true);
     assert_eq!(looks, Some((Action::Look, Edge::Pressed)));
     assert_eq!(controls.switch(Profile::Choice), [Action::TurnLeft]);
     assert!(controls.switch(Profile::Cue).is_empty());
-    assert_eq!(controls.hear(letter('j'), false), None);
+    assert_eq!(controls.hear(letter('0'), false), None);
     assert_eq!(controls.hear(letter('c'), false), Some((Action::Look, Edge::Released)));
     controls.forget();
-    assert_eq!(controls.hear(letter('j'), false), None);
+    assert_eq!(controls.hear(letter('0'), false), None);
 }
 
 #[test]

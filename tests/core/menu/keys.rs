@@ -76,7 +76,7 @@ fn a_key_is_chosen_on_its_page_and_conflicts_are_said() {
     // Everything as at first.
     open(&mut lobby);
     press(&mut lobby, Key::Escape);
-    for _ in 0..3 {
+    for _ in 0..4 {
         press(&mut lobby, Key::Down);
     }
     assert_eq!(press(&mut lobby, Key::Enter), [Order::Rebound]);
@@ -126,10 +126,10 @@ fn a_gamepad_that_goes_lets_go_of_everything_stops_time_and_is_said() {
     for value in [-0.7, -1.0, -0.5, -0.9] {
         lobby.hear(stick(value), None);
     }
-    assert_eq!(seen(lobby.menu().unwrap()).1, "options");
+    assert_eq!(seen(lobby.menu().unwrap()).1, "replay");
     lobby.hear(stick(0.0), None);
     lobby.hear(stick(-0.7), None);
-    assert_eq!(seen(lobby.menu().unwrap()).1, "leave");
+    assert_eq!(seen(lobby.menu().unwrap()).1, "options");
 }
 
 #[test]
