@@ -39,6 +39,8 @@ mod pointer;
 
 mod running;
 
+mod seeker;
+
 mod stage;
 
 mod textures;
@@ -52,7 +54,7 @@ pub use heard::HeardSetup;
 pub use offscreen::{card, pixels, written};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
-pub use window::{Backdrop, Host, NoWindow, WindowSetup, show};
+pub use window::{Backdrop, Host, NoWindow, TakeUp, WindowSetup, show};
 
 use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;

@@ -8,6 +8,7 @@ use super::hud;
 use super::keys::{button, key, notches};
 use super::pointer::Pointer;
 use super::running::Running;
+use super::seeker::Seeker;
 use super::stage::{BACKGROUND, Stage};
 use super::stylus::DeskStylus;
 use super::window::{Backdrop, GameEnded, Host, WindowSetup};
@@ -76,7 +77,9 @@ pub(super) struct Desk<'a> {
     is_focused: bool,
     /// From where the player likes to look.
     view: View,
-    /// A stylus that no game has, and what it is as a mouse.
+    /// Who looks for a stylus that no game has.
+    seeker: Seeker,
+    /// That stylus, and what it is as a mouse.
     stylus: Option<DeskStylus>,
     stylus_mouse: StylusMouse,
     /// It was moved later than the mouse.
@@ -127,6 +130,7 @@ impl<'a> Desk<'a> {
             shown: None,
             is_focused: false,
             view: View::Usual,
+            seeker: Seeker::default(),
             stylus: None,
             stylus_mouse: StylusMouse::default(),
             is_by_stylus: false,
@@ -488,7 +492,7 @@ impl<'a> Desk<'a> {
             }
             // The menu says it.
             hud.banner = None;
-            (hud.hint, hud.help_hint) = (String::new(), String::new());
+            (hud.hint, hud.help_hint, hud.lesson) = (String::new(), String::new(), None);
             hud.options.clear();
             hud.menu = Some(panel);
         }

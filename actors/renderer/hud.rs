@@ -25,6 +25,9 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     pen.seats(&hud.seats);
     pen.message(hud);
     pen.hint(hud);
+    if let Some((title, text)) = &hud.lesson {
+        pen.lesson(title, text);
+    }
     pen.call(hud.call.as_deref());
     pen.options(&hud.options);
     if let Some(tip) = &hud.tip {
@@ -209,6 +212,13 @@ impl Pen<'_> {
     }
 
     /// What is announced, above the hint.
+    /// A lesson stands over the hint.
+    fn lesson(&self, title: &str, text: &str) {
+        let top = self.screen.center_bottom() - vec2(0.0, 140.0 * self.unit);
+        let lines = [(title.to_string(), 14.5, ACTIVE), (text.to_string(), 19.0, TEXT)];
+        self.paragraph(top, 640.0 * self.unit, &lines);
+    }
+
     fn call(&self, call: Option<&str>) {
         if let Some(call) = call {
             let bottom = self.screen.center_bottom() - vec2(0.0, 92.0 * self.unit);

@@ -280,7 +280,7 @@ impl Running {
         }
         if let Some(tutor) = &mut self.tutor {
             tutor.see(view);
-            written = written.with_lesson(tutor, is_by_pad, &self.words);
+            written = written.with_lesson(tutor, view, is_by_pad, &self.words);
         }
         if let Some(advice) = self.advice.as_ref().and_then(AdviceScreen::shown) {
             draw_thoughts(&advice.insight, &self.radii, &mut list);

@@ -59,6 +59,10 @@ pub struct Backdrop {
     pub list: DrawList,
 }
 
+/// Takes up a stylus for menus; none if the device has none that points. The error is read by the
+/// player.
+pub type TakeUp = Box<dyn FnOnce() -> Result<Option<DeskStylus>, Error> + Send>;
+
 /// Who runs the games of a window.
 pub trait Host {
     /// Makes ready the game that is to begin; the last one once more is the first one at first.
@@ -78,12 +82,9 @@ pub trait Host {
     /// Balls that do not fit the table.
     fn backdrop(&mut self) -> Result<Backdrop, Error>;
 
-    /// The stylus of the device that is set, for menus while no game has it; none if there is none
-    /// that points.
-    ///
-    /// # Errors
-    /// Why it is not there; the player reads it.
-    fn stylus(&mut self, settings: &Settings) -> Result<Option<DeskStylus>, Error>;
+    /// How the stylus of the device that is set is taken up, for menus while no game has it; none
+    /// if none is set. A device that is not there lets a while pass, so it is done elsewhere.
+    fn stylus(&mut self, settings: &Settings) -> Option<TakeUp>;
 
     /// A game has ended.
     ///

@@ -4,9 +4,10 @@
 //! may forget it.
 
 use super::insight::insight_of_thoughts;
-use super::mind::{Decision, Mind, MindSetup, Task, TaskKind, Workers};
+use super::mind::{Decision, Mind, MindSetup, Task, TaskKind, Thoughts, Workers};
 use crate::cue::Aim;
 use crate::events::{Insight, Topic, Topics, Turn};
+use crate::ids::GameKind;
 use crate::physics::Snapshot;
 use crate::rules::{self, Referee};
 use crate::tick::{Delivered, Participant};
@@ -79,17 +80,33 @@ impl Adviser {
     }
 }
 
+/// Where nobody counts every shot is worth the same; whoever asks wants to pocket a ball.
+fn choose_pot(thoughts: &mut Thoughts) {
+    let pots = thoughts.candidates.iter().enumerate();
+    let pots = pots.filter(|(_, candidate)| candidate.idea.pocket.is_some());
+    let best = pots.max_by(|(_, a), (_, b)| a.success.total_cmp(&b.success)).map(|(at, _)| at);
+    if let Some(best) = best {
+        let all = thoughts.candidates.iter_mut().enumerate();
+        all.for_each(|(at, candidate)| candidate.chosen = at == best);
+    }
+}
+
 impl Question {
     /// Thinks. None if nothing can be played.
     pub fn answer(&self, workers: &dyn Workers) -> Option<Advice> {
         let mind = self.mind.get_or_init(|| Mind::new((*self.setup).clone()));
         let deliberation = mind.deliberate(&self.task, workers);
-        let Decision::Shoot(planned) = deliberation.decision else { return None };
+        let Decision::Shoot(_) = deliberation.decision else { return None };
+        let mut thoughts = deliberation.thoughts;
+        if matches!(self.setup.game, GameKind::FreePlay | GameKind::Training) {
+            choose_pot(&mut thoughts);
+        }
+        let planned = thoughts.candidates.iter().find(|candidate| candidate.chosen)?.clone();
         let turn = &self.task.turn;
         let cue_ball = self.task.lies.iter().find(|ball| ball.id == turn.cue_ball)?;
         let cue_ball = cue_ball.position.truncate();
         Some(Advice {
-            insight: insight_of_thoughts(turn.player, cue_ball, &deliberation.thoughts, &[]),
+            insight: insight_of_thoughts(turn.player, cue_ball, &thoughts, &[]),
             aim: planned.aim,
             speed_m_s: planned.speed_m_s,
             chance: planned.success,

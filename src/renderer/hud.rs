@@ -86,6 +86,8 @@ pub struct Hud {
     pub banner: Option<(String, String)>,
     /// The table of controls, with its title.
     pub help: Option<(String, Vec<(String, String)>)>,
+    /// The lesson of a tutorial: its title and what to do.
+    pub lesson: Option<(String, String)>,
     /// How to get help; empty while it is shown.
     pub help_hint: String,
     /// What the haptic device does.
@@ -211,7 +213,13 @@ impl Hud {
 
     /// The same while somebody shows how to play.
     #[must_use]
-    pub fn with_lesson(mut self, tutor: &Tutor, is_by_pad: bool, words: &Words) -> Self {
+    pub fn with_lesson(
+        mut self,
+        tutor: &Tutor,
+        view: &HumanView,
+        is_by_pad: bool,
+        words: &Words,
+    ) -> Self {
         let (at, of) = tutor.count();
         let title = words.fill("tutor", "at", &at.to_string()).replace("{of}", &of.to_string());
         let name = tutor.lesson().name();
@@ -219,8 +227,11 @@ impl Hud {
             true => words.get(&format!("{name}_pad")),
             false => words.get(name),
         };
-        self.message = [title, text].into_iter().chain(self.message.drain(1..)).collect();
-        self
+        // It says what to do; only where there is something else to be done now, that stays.
+        if matches!(view.mode, HumanMode::Aiming | HumanMode::Watching) {
+            self.hint = String::new();
+        }
+        Hud { lesson: Some((title, text)), ..self }
     }
 
     /// The same with the panel of a haptic device, and with other words where a mouse moves the

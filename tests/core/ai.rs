@@ -1,5 +1,6 @@
 //! The paper's computer player, without physics: its table is made of positions.
 
+mod adviser;
 mod blind;
 mod ideas;
 mod learn;

@@ -22,3 +22,7 @@ mod play;
 mod stroke;
 /// A stylus beside the mouse: who strikes, and what becomes of a stroke whose device is lost.
 mod stylus;
+
+mod tutor;
+
+mod views;

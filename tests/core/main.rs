@@ -18,6 +18,8 @@ mod event_manager;
 mod facts;
 /// What a picture shows of a haptic device.
 mod felt;
+/// The last shot, seen again.
+mod film;
 /// Closest points by brute force, to measure meshes with.
 mod geometry;
 /// What a hand feels.

@@ -6,6 +6,8 @@ mod by_stylus;
 mod games;
 /// The page of keys, help, and gamepads in menus.
 mod keys;
+
+mod replay;
 /// A simulated hand at a simulated device.
 mod stylus_hand;
 

@@ -24,7 +24,8 @@ use hapticbillard_actors::haptic::{
 use hapticbillard_actors::input::{LedHand, WindowHand, gamepads};
 use hapticbillard_actors::pacer::{Tempo, describe};
 use hapticbillard_actors::renderer::{
-    Backdrop, DeskStylus, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, WindowSetup, show,
+    Backdrop, DeskStylus, GameSetup, HeardSetup, Host, NoWindow, Ports, Prepared, TakeUp,
+    WindowSetup, show,
 };
 use hapticbillard_actors::runtime::{self, Felt, Heard, InputPort, Setup};
 use hapticbillard_actors::sound;
@@ -225,19 +226,23 @@ impl Host for House<'_> {
         backdrop(&self.stage)
     }
 
-    fn stylus(&mut self, settings: &Settings) -> Result<Option<DeskStylus>, Error> {
+    fn stylus(&mut self, settings: &Settings) -> Option<TakeUp> {
         // A scene of the command line may have a device that is not set.
-        let plan = match settings.haptic {
-            HapticChoice::None if self.is_set => return Ok(None),
-            HapticChoice::None => self.stage.haptic()?,
-            _ => stage_of(settings, Language::English)?.haptic()?,
+        let stage = match settings.haptic {
+            HapticChoice::None if self.is_set => return None,
+            HapticChoice::None if self.stage.scene.haptic.is_none() => return None,
+            HapticChoice::None => Ok(self.stage.with(self.stage.header().overrides)),
+            _ => stage_of(settings, Language::English),
         };
-        let Some(opened) = plan.map(|plan| plan.opened).filter(|opened| opened.points) else {
-            return Ok(None);
-        };
-        let fix = "end what uses the device, or choose none in the options";
-        let started = DeskStylus::start(opened);
-        started.map(Some).map_err(|error| Error::input("stylus", error.to_string(), fix))
+        Some(Box::new(move || {
+            let plan = stage?.haptic()?;
+            let Some(opened) = plan.map(|plan| plan.opened).filter(|opened| opened.points) else {
+                return Ok(None);
+            };
+            let fix = "end what uses the device, or choose none in the options";
+            let started = DeskStylus::start(opened);
+            started.map(Some).map_err(|error| Error::input("stylus", error.to_string(), fix))
+        }))
     }
 
     fn ended(&mut self, finished: &Result<Finished, RunError>) -> Result<(), Error> {
@@ -291,8 +296,8 @@ impl Host for Replay<'_> {
         backdrop(self.stage)
     }
 
-    fn stylus(&mut self, _: &Settings) -> Result<Option<DeskStylus>, Error> {
-        Ok(None)
+    fn stylus(&mut self, _: &Settings) -> Option<TakeUp> {
+        None
     }
 
     fn ended(&mut self, _: &Result<Finished, RunError>) -> Result<(), Error> {

@@ -6,7 +6,11 @@ use glam::DVec2;
 use hapticbillard::input::{PadInput, RawInput, StylusSays};
 use hapticbillard::menu::{Order, Pointed};
 use hapticbillard::renderer::MenuLayout;
+use std::time::Duration;
 use winit::event_loop::ControlFlow;
+
+/// A device that is lost in the menus is sought so often.
+const SEEK_AGAIN: Duration = Duration::from_secs(3);
 
 impl Desk<'_> {
     /// Size of the window [pixels].
@@ -29,6 +33,7 @@ impl Desk<'_> {
 
     /// A stylus has said something.
     pub(super) fn hear_stylus(&mut self, flow: &mut ControlFlow) {
+        self.look_for_stylus();
         let window = self.size();
         let mouse = &mut self.stylus_mouse;
         let said = match (&mut self.stylus, &mut self.game) {
@@ -38,6 +43,7 @@ impl Desk<'_> {
         };
         for said in said {
             self.is_by_stylus = said != StylusSays::Lost;
+            self.seeker.note(self.is_by_stylus);
             let place = self.stylus_mouse.place().unwrap_or(0.5 * window);
             let (pointed, picked) = (self.pointed(), self.picked());
             let orders = self.lobby.hear_stylus(said, place, pointed, picked);
@@ -58,6 +64,7 @@ impl Desk<'_> {
     /// No stylus is heard any more until another servo has its device; what it held is let go.
     pub(super) fn drop_stylus(&mut self) {
         self.stylus = None;
+        self.seeker.give_up();
         self.is_by_stylus = false;
         if let Some(lost) = self.stylus_mouse.let_go() {
             for order in self.lobby.hear_stylus(lost, DVec2::ZERO, None, None) {
@@ -68,17 +75,35 @@ impl Desk<'_> {
         }
     }
 
-    /// Menus hear the stylus of the device that is set, while no game has it.
+    /// Menus hear the stylus of the device that is set, while no game has it. Taking it up goes on
+    /// beside the menus.
     pub(super) fn take_up_stylus(&mut self) {
         self.drop_stylus();
         self.haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
+        self.seek(false);
+    }
+
+    fn seek(&mut self, is_again: bool) {
         let Some(menu) = self.lobby.menu() else { return };
-        match self.host.stylus(&menu.settings) {
-            Ok(stylus) => self.stylus = stylus,
-            Err(error) => {
+        if let Some(take_up) = self.host.stylus(&menu.settings) {
+            self.seeker.seek(take_up, is_again);
+        }
+    }
+
+    /// What came of taking a stylus up. One that was lost is sought again and again.
+    fn look_for_stylus(&mut self) {
+        match self.seeker.found() {
+            Some(Ok(stylus)) => self.stylus = stylus,
+            Some(Err(error)) => {
                 tracing::warn!("{error}");
                 self.lobby.complain(error.to_string());
             }
+            None if self.seeker.is_lost_for(SEEK_AGAIN) && !self.lobby.has_game() => {
+                // The device is let go of before it is opened anew.
+                self.stylus = None;
+                self.seek(true);
+            }
+            None => {}
         }
     }
 

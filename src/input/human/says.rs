@@ -99,7 +99,7 @@ impl Human {
         }
         let Some(sight) = self.call_sight().filter(Sight::calls_pockets) else { return };
         let called = self.calling.view(&sight).and_then(|view| view.pocket_at);
-        let begin = called.map_or(DVec2::ZERO, |(at, _)| at);
+        let begin = self.on_bed(called.map_or(DVec2::ZERO, |(at, _)| at));
         self.pointing = if self.pointing.is_some() { None } else { Some(begin) };
     }
 
@@ -112,15 +112,19 @@ impl Human {
 
     /// This point of the bed is pointed at [m].
     pub(super) fn point_at(&mut self, at: DVec2) {
-        let bed = self.table.bed.as_ref();
-        let half = bed.map_or(DVec2::ZERO, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m));
-        let at = at.clamp(-half, half);
+        let at = self.on_bed(at);
         self.pointing = Some(at);
         let mut calling = std::mem::take(&mut self.calling);
         if let Some(sight) = self.call_sight() {
             calling.point_at(at, &sight);
         }
         self.calling = calling;
+    }
+
+    fn on_bed(&self, at: DVec2) -> DVec2 {
+        let bed = self.table.bed.as_ref();
+        let half = bed.map_or(DVec2::ZERO, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m));
+        at.clamp(-half, half)
     }
 
     /// Says what the stroke that begins is meant to do.

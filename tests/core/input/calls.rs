@@ -7,8 +7,8 @@ use hapticbillard::events::{
     Call, CallKind, Calls, Choice, Command, Event, Source, Stamp, Stamped, Turn,
 };
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
-use hapticbillard::input::feel::AIM_RAD_PER_HEIGHT;
-use hapticbillard::input::{Button, Human, HumanMode, HumanView, Key, RawInput};
+use hapticbillard::input::feel::{AIM_RAD_PER_HEIGHT, PLACING_M_PER_HEIGHT};
+use hapticbillard::input::{Button, HandInput, Human, HumanMode, HumanView, Key, RawInput};
 use hapticbillard::menu::Lobby;
 use hapticbillard::physics::Snapshot;
 use hapticbillard::scene::Scene;
@@ -375,4 +375,51 @@ fn every_shipped_game_for_a_person_can_begin() {
         let begins = [HumanMode::Placing, HumanMode::Aiming];
         assert!(begins.contains(&desk.mode()), "{name}: {:?}", desk.mode());
     }
+}
+
+#[test]
+fn a_pocket_is_called_by_pointing_at_it() {
+    let mut seat = Seat::with(POOL);
+    seat.aim_at(DVec2::new(0.3, -0.012));
+    let aim = seat.view().aim;
+    assert_eq!(seat.called(), into(1, PocketId::Fl));
+    seat.key(Key::Letter('k'));
+    assert_eq!(seat.view().mode, HumanMode::Pointing);
+    // It begins at the pocket that is called; each is found from there, from above.
+    for pocket in &table().pockets {
+        let from = seat.view().pointing.unwrap();
+        let by = (pocket.centre - from) / PLACING_M_PER_HEIGHT;
+        seat.say(&[RawInput::Moved { right: by.x, up: by.y }]);
+        assert_eq!(seat.called(), into(1, pocket.id), "{:?}", pocket.id);
+        let at = seat.view().pointing.unwrap();
+        assert!(at.abs().cmple(DVec2::new(1.27, 0.635)).all(), "on the bed: {at}");
+    }
+    let last = table().pockets.last().unwrap().id;
+    // A click ends it and is no stroke; the cue has not moved.
+    let button = |down| RawInput::Button { button: Button::Left, down };
+    assert_eq!(seat.say(&[button(true)]), []);
+    assert_eq!(seat.say(&[button(false)]), []);
+    assert_eq!((seat.view().mode, seat.view().aim), (HumanMode::Aiming, aim));
+    assert_eq!(seat.called(), into(1, last));
+    assert_eq!(seat.stroke(), vec![Command::Call(into(1, last).unwrap())]);
+    // Keys and a stylus point as well.
+    seat.key(Key::Letter('k'));
+    let before = seat.view().pointing.unwrap();
+    seat.say(&[RawInput::Key { key: Key::Left, down: true }]);
+    (0..200).for_each(|_| drop(seat.say(&[])));
+    seat.say(&[RawInput::Key { key: Key::Left, down: false }]);
+    let after = seat.view().pointing.unwrap();
+    assert!(after.x < before.x - 0.15 && after.y == before.y, "{before} {after}");
+    seat.human.inflow(Tick(9_999), &[HandInput::Points { right: 0.0, up: 0.0 }]);
+    assert!(seat.view().pointing.unwrap().length() < 0.05, "the middle of the picture");
+    // Whoever goes away points at nothing.
+    seat.say(&[RawInput::FocusLost]);
+    assert_eq!(seat.view().mode, HumanMode::Aiming);
+}
+
+#[test]
+fn where_no_pocket_is_called_nothing_is_pointed_at() {
+    let mut seat = Seat::with(Calls::default());
+    seat.key(Key::Letter('k'));
+    assert_eq!(seat.view().mode, HumanMode::Aiming);
 }

@@ -23,8 +23,10 @@ use hapticbillard::scene::Scene;
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, FrameSource, Inflow, Outcome, Participant};
 use hapticbillard::units::Tick;
+use hapticbillard_actors::game::Stage;
 use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
@@ -163,24 +165,15 @@ struct Read {
     recording: Option<Recording>,
 }
 
-/// The desk.
-pub struct Desk {
+/// Mouse and keyboard at a display.
+pub struct Hands {
     /// Where the window is shown.
     pub display: String,
-    /// The recording.
-    pub file: PathBuf,
-    scene: Scene,
-    table: Arc<Table>,
-    read: RefCell<Read>,
+    /// Where pictures of it are kept.
+    pub pictures: PathBuf,
 }
 
-impl Desk {
-    /// A desk before the window is there.
-    pub fn new(display: &str, file: &Path, scene: Scene, table: Arc<Table>) -> Self {
-        let read = RefCell::default();
-        Desk { display: display.into(), file: file.into(), scene, table, read }
-    }
-
+impl Hands {
     /// Real events, in order; `sleep` among them takes time.
     fn events(&self, words: &[String]) -> String {
         let output = Command::new("xdotool")
@@ -196,6 +189,13 @@ impl Desk {
     /// Real events, in words between blanks.
     pub fn event(&self, words: &str) -> String {
         self.events(&words.split(' ').map(String::from).collect::<Vec<_>>())
+    }
+
+    /// These keys, one after the other, each after the picture of the one before.
+    pub fn keys(&self, keys: &[&str]) {
+        for key in keys {
+            self.event(&format!("key {key} sleep 0.3"));
+        }
     }
 
     /// Looks again and again until something is there; nothing after so many seconds.
@@ -219,16 +219,16 @@ impl Desk {
         })
     }
 
-    /// Keeps what the display shows beside the recording, for whoever wants to see it.
+    /// Keeps what the display shows, for whoever wants to see it.
     pub fn picture(&self, name: &str) {
         // Only where the tool is there: nothing depends on it.
         let _ = Command::new("import")
             .env("DISPLAY", &self.display)
-            .args(["-window", "root", self.file.with_file_name(name).to_str().unwrap()])
+            .args(["-window", "root", self.pictures.join(name).to_str().unwrap()])
             .status();
     }
 
-    /// Waits for the window and gives it the keyboard.
+    /// Waits for the window, makes it small and gives it the keyboard.
     pub fn find_window(&self) {
         let search = "search --onlyvisible --name HapticBillard";
         let find = || {
@@ -241,15 +241,53 @@ impl Desk {
             text.lines().next().map(String::from)
         };
         let id = self.until("a window", find);
-        self.event(&format!("windowfocus {id} mousemove {} {}", SIZE.0 / 2, SIZE.1 / 2));
+        let (width, height) = SIZE;
+        self.event(&format!("windowsize --sync {id} {width} {height} windowmove {id} 0 0"));
+        self.event(&format!("windowfocus {id} mousemove {} {}", width / 2, height / 2));
+    }
+}
+
+/// The desk.
+pub struct Desk {
+    hands: Hands,
+    /// The recording.
+    pub file: PathBuf,
+    scene: Scene,
+    table: Arc<Table>,
+    read: RefCell<Read>,
+}
+
+impl Deref for Desk {
+    type Target = Hands;
+
+    fn deref(&self) -> &Hands {
+        &self.hands
+    }
+}
+
+impl Desk {
+    /// A desk where a game has begun that is recorded into this file: what is played, and on which
+    /// table, its first line says.
+    pub fn new(hands: Hands, file: PathBuf) -> Self {
+        let part = part_of(&file);
+        let recording = hands.until("the first line of a recording", || {
+            let text = std::fs::read_to_string(&part).ok()?;
+            Recording::parse(&text[..=text.find('\n')?]).ok()
+        });
+        let stage = Stage::of_recording(&recording).unwrap();
+        let (scene, table) = (stage.scene, stage.table);
+        Desk { hands, file, scene, table, read: RefCell::default() }
+    }
+
+    /// The table that is played on.
+    pub fn table(&self) -> &Table {
+        &self.table
     }
 
     /// Looks at the recording so far: whole lines only.
     fn look<T>(&self, at: impl FnOnce(&Recording) -> Option<T>) -> Option<T> {
-        let mut part = self.file.clone().into_os_string();
-        part.push(".part");
         let text = std::fs::read_to_string(&self.file)
-            .or_else(|_| std::fs::read_to_string(PathBuf::from(part)))
+            .or_else(|_| std::fs::read_to_string(part_of(&self.file)))
             .ok()?;
         let end = text.rfind('\n')? + 1;
         let mut read = self.read.borrow_mut();
@@ -473,6 +511,13 @@ impl Desk {
         let is_struck = |recording: &Recording| recording.hashes.range(told..).next().map(|_| ());
         self.within(LOST_S, || self.look(is_struck)).is_some()
     }
+}
+
+/// Where a recording grows.
+fn part_of(file: &Path) -> PathBuf {
+    let mut part = file.to_path_buf().into_os_string();
+    part.push(".part");
+    part.into()
 }
 
 /// Whether a tool that this test needs is there.
