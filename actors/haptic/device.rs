@@ -277,6 +277,7 @@ impl FeltMouse {
             | HandInput::Aid(_)
             | HandInput::Points { .. }
             | HandInput::Hold(_)
+            | HandInput::StylusSpeed(_)
             | HandInput::Steering(_) => return,
         };
         self.say(heard);

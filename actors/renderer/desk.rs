@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::{
-    Action, AimAid, Button, Controller, HandInput, HumanMode, RawInput, Steering, StylusMouse, View,
+    Action, AimAid, Button, Controller, HandInput, RawInput, Steering, StylusMouse, View,
 };
 use hapticbillard::menu::{Begin, HapticChoice, Lobby, Order};
 use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuPanel, WheelPanel, Words};
@@ -442,11 +442,14 @@ impl<'a> Desk<'a> {
 
     /// What is set becomes true in the game.
     fn apply(&mut self) {
+        let factor = self.lobby.menu().map_or(1.0, |menu| menu.settings.stylus_factor());
+        self.stylus_mouse.set_faster(factor);
         let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
         let aid = menu.settings.aim_aid;
         if self.aid.replace(aid) != Some(aid) {
             game.outbox.say(HandInput::Aid(aid));
         }
+        game.outbox.say(HandInput::StylusSpeed(factor));
         let steering = menu.settings.steering;
         if self.steering.replace(steering) != Some(steering) {
             game.outbox.say(HandInput::Steering(steering));
@@ -580,20 +583,6 @@ impl<'a> Desk<'a> {
     fn note_picture(&mut self, begun: Option<Instant>) {
         if let Some(game) = &mut self.game {
             game.meters.drawn(begun);
-        }
-    }
-
-    /// While time stands still, something is to be chosen or no game goes on, the pointer belongs
-    /// to the player's desk.
-    fn hold_pointer(&mut self) {
-        let is_free = |mode| matches!(mode, HumanMode::Paused | HumanMode::Choosing);
-        let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game.mode()));
-        let is_seen = goes_on || self.lobby.is_replaying();
-        let is_playing = self.is_focused && is_seen && !self.lobby.is_menu_open();
-        if is_playing && !self.pointer.is_caught() {
-            self.pointer.catch(&self.window);
-        } else if !is_playing && self.pointer.is_caught() {
-            self.pointer.release(&self.window);
         }
     }
 }

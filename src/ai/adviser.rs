@@ -6,7 +6,7 @@
 use super::insight::insight_of_thoughts;
 use super::mind::{Decision, Mind, MindSetup, Task, TaskKind, Thoughts, Workers};
 use crate::cue::Aim;
-use crate::events::{Insight, Topic, Topics, Turn};
+use crate::events::{Insight, ShotKind, Topic, Topics, Turn};
 use crate::ids::GameKind;
 use crate::physics::Snapshot;
 use crate::rules::{self, Referee};
@@ -66,7 +66,11 @@ impl Adviser {
     }
 
     /// What it would play in this turn, on this table.
-    pub fn ask(&self, turn: Arc<Turn>, table: &Snapshot) -> Question {
+    pub fn ask(&self, mut turn: Arc<Turn>, table: &Snapshot) -> Question {
+        if is_practice(self.setup.game) {
+            // Nothing need be broken where nobody counts.
+            Arc::make_mut(&mut turn).shot = ShotKind::Normal;
+        }
         let task = Task {
             kind: TaskKind::Shoot,
             lies: table.balls.clone(),
@@ -78,6 +82,10 @@ impl Adviser {
         };
         Question { setup: self.setup.clone(), mind: self.mind.clone(), task }
     }
+}
+
+fn is_practice(game: GameKind) -> bool {
+    matches!(game, GameKind::FreePlay | GameKind::Training)
 }
 
 /// Where nobody counts every shot is worth the same; whoever asks wants to pocket a ball.
@@ -98,7 +106,7 @@ impl Question {
         let deliberation = mind.deliberate(&self.task, workers);
         let Decision::Shoot(_) = deliberation.decision else { return None };
         let mut thoughts = deliberation.thoughts;
-        if matches!(self.setup.game, GameKind::FreePlay | GameKind::Training) {
+        if is_practice(self.setup.game) {
             choose_pot(&mut thoughts);
         }
         let planned = thoughts.candidates.iter().find(|candidate| candidate.chosen)?.clone();

@@ -62,6 +62,18 @@ pub struct Drive {
     pub rise_rad_s: f64,
 }
 
+impl Drive {
+    /// The same, faster by this factor.
+    #[must_use]
+    pub fn faster(self, factor: f64) -> Self {
+        Drive {
+            velocity: self.velocity * factor,
+            turn_rad_s: self.turn_rad_s * factor,
+            rise_rad_s: self.rise_rad_s * factor,
+        }
+    }
+}
+
 impl CameraHand {
     /// What a device says that began at `from` [m].
     pub fn of(device: &DeviceState, from: DVec3) -> Self {

@@ -48,6 +48,8 @@ pub enum HandInput {
     Hold(Aim),
     /// So a stylus leads the camera, from now on.
     Steering(Steering),
+    /// So much faster a stylus leads the camera, from now on.
+    StylusSpeed(f64),
     /// A line of the options that are written in the window was clicked, counted from 0.
     Picked {
         /// Which.

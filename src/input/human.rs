@@ -129,6 +129,8 @@ pub struct Human {
     is_mouse_felt: bool,
     /// How it leads the camera.
     steering: Steering,
+    /// How much faster than usual.
+    stylus_speed: f64,
 
     held: Held,
     /// A gamepad's sticks, and the trigger that strokes.
@@ -176,6 +178,7 @@ impl Human {
             stylus: None,
             is_mouse_felt: false,
             steering: Steering::default(),
+            stylus_speed: 1.0,
             held: Held::default(),
             sticks: Sticks::default(),
             camera,
@@ -273,6 +276,7 @@ impl Human {
             HandInput::Points { right, up } => self.pointed_at(DVec2::new(right, up)),
             HandInput::Hold(aim) => self.hold_so(aim),
             HandInput::Steering(steering) => self.steering = steering,
+            HandInput::StylusSpeed(factor) => self.stylus_speed = factor,
             HandInput::FocusLost => self.forget(),
             HandInput::PadLost => {
                 self.forget();
@@ -338,13 +342,6 @@ impl Human {
         } else {
             self.camera.zoom(libm::pow(ZOOM_PER_NOTCH, notches));
         }
-    }
-
-    fn shift_tip(&mut self, right: f64, upwards: f64) {
-        self.change_aim(|aim| {
-            aim.side_offset += right;
-            aim.height_offset += upwards;
-        });
     }
 
     /// Changes how the cue is held, if it is held to aim, and keeps it clear of everything.

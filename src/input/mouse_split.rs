@@ -44,6 +44,7 @@ impl MouseSplit {
             | HandInput::Points { .. }
             | HandInput::Hold(_)
             | HandInput::Steering(_)
+            | HandInput::StylusSpeed(_)
             | HandInput::Stick { .. }
             | HandInput::Trigger(_) => Reader::Eye,
             HandInput::FocusLost | HandInput::PadLost => {

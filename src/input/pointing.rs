@@ -25,9 +25,9 @@ pub struct Pointing {
 }
 
 impl Pointing {
-    /// The whole workspace [m] on the whole window [pixels].
-    pub fn on(window: DVec2, workspace_m: DVec3) -> Self {
-        let scale = window / workspace_m.truncate();
+    /// The whole workspace [m] on the whole window [pixels]; faster by a factor, a part of it.
+    pub fn on(window: DVec2, workspace_m: DVec3, faster: f64) -> Self {
+        let scale = faster * window / workspace_m.truncate();
         Pointing { scale: DVec2::new(scale.x, -scale.y), middle: 0.5 * window, ahead_m: AHEAD_M }
     }
 
@@ -60,13 +60,25 @@ pub enum StylusSays {
 }
 
 /// A stylus before a window. Of its places only the newest counts, of its buttons every edge.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct StylusMouse {
     place: Option<DVec2>,
     held: Buttons,
+    faster: f64,
+}
+
+impl Default for StylusMouse {
+    fn default() -> Self {
+        StylusMouse { place: None, held: Buttons::default(), faster: 1.0 }
+    }
 }
 
 impl StylusMouse {
+    /// The pointer moves faster by this factor, from now on.
+    pub fn set_faster(&mut self, factor: f64) {
+        self.faster = factor;
+    }
+
     /// Takes the newest state of a device with this workspace [m], and every edge since the last
     /// time, for a window of this size [pixels]; what it says to that: at most one place, then the
     /// edges in their order. A device that is lost lets go of everything.
@@ -80,7 +92,8 @@ impl StylusMouse {
         let mut said = Vec::new();
         let is_there = state.status != DeviceStatus::Lost && state.is_finite();
         if is_there {
-            let wanted = Pointing::on(window, workspace_m).at(state.position, state.pointing());
+            let pointing = Pointing::on(window, workspace_m, self.faster);
+            let wanted = pointing.at(state.position, state.pointing());
             let is_near = |place: DVec2| place.distance(wanted) <= TREMBLE * window.y;
             if !self.place.is_some_and(is_near) {
                 // The first place is where it lay: it has not pointed yet.
@@ -99,7 +112,7 @@ impl StylusMouse {
 
     /// The device is another one, or gone: nothing is held any more, and it has pointed nowhere.
     pub fn let_go(&mut self) -> Option<StylusSays> {
-        let was = std::mem::take(self);
+        let was = std::mem::replace(self, StylusMouse { faster: self.faster, ..Self::default() });
         (was.place.is_some() || was.held != Buttons::default()).then_some(StylusSays::Lost)
     }
 
@@ -131,7 +144,7 @@ mod tests {
 
     #[test]
     fn a_stylus_points_as_the_formula_says() {
-        let pointing = Pointing::on(WINDOW, OMNI_M);
+        let pointing = Pointing::on(WINDOW, OMNI_M, 1.0);
         let tilted = DVec3::new(0.1736, 0.0, -0.9848);
         let at = pointing.at(DVec3::new(0.010, 0.020, -0.005), tilted);
         // s = (12, -9) px/mm, t = (960, 540), d = 100 mm.
@@ -159,7 +172,7 @@ mod tests {
             let said = mouse.hear(&state, waiting.drain(..), WINDOW, OMNI_M);
             let is_place = |said: &&StylusSays| matches!(said, StylusSays::Points(_));
             assert!(said.iter().filter(is_place).count() <= 1, "{said:?}");
-            let newest = Pointing::on(WINDOW, OMNI_M).at(state.position, DVec3::NEG_Z);
+            let newest = Pointing::on(WINDOW, OMNI_M, 1.0).at(state.position, DVec3::NEG_Z);
             assert!(mouse.place().unwrap().distance(newest) <= TREMBLE * WINDOW.y);
             heard.extend(said.iter().filter_map(|said| match said {
                 StylusSays::Button { down, .. } => Some(*down),

@@ -1,5 +1,8 @@
 //! Who hears what the devices say: a menu or the game; and what becomes of either.
 
+mod repeat;
+use repeat::Repeat;
+
 mod replay;
 use replay::ends_replay;
 
@@ -101,6 +104,8 @@ pub struct Lobby {
     has_told_click: bool,
     /// The eye is led by hand.
     is_free: bool,
+    /// What a gamepad holds in a menu.
+    repeat: Option<Repeat>,
     /// There is a shot that can be seen again.
     has_film: bool,
     /// It is seen again; `Some(true)`: time goes on after that.
@@ -130,6 +135,7 @@ impl Lobby {
             wheel: None,
             has_told_click: false,
             is_free: false,
+            repeat: None,
             has_film: false,
             replay: None,
         }

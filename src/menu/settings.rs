@@ -38,6 +38,8 @@ pub struct Settings {
     pub volume_percent: u16,
     /// How far everything moves with the mouse [% of the usual].
     pub mouse_percent: u16,
+    /// How far everything moves with a stylus [%].
+    pub stylus_percent: u16,
     /// The window fills the screen.
     pub full_screen: bool,
     /// What helps to aim.
@@ -64,6 +66,7 @@ impl Default for Settings {
             language: Tongue::System,
             volume_percent: 100,
             mouse_percent: 100,
+            stylus_percent: 100,
             full_screen: false,
             aim_aid: AimAid::Line,
             haptic: HapticChoice::None,
@@ -297,6 +300,8 @@ pub enum Setting {
     Volume,
     /// How far everything moves with the mouse.
     MouseSpeed,
+    /// How far everything moves with a stylus.
+    StylusSpeed,
     /// Whether the window fills the screen.
     FullScreen,
     /// What helps to aim.
@@ -311,7 +316,7 @@ pub enum Setting {
 
 impl Setting {
     /// All.
-    pub const ALL: [Setting; 14] = [
+    pub const ALL: [Setting; 15] = [
         Setting::Game,
         Setting::Table,
         Setting::PlayerOne,
@@ -321,6 +326,7 @@ impl Setting {
         Setting::Language,
         Setting::Volume,
         Setting::MouseSpeed,
+        Setting::StylusSpeed,
         Setting::FullScreen,
         Setting::AimAid,
         Setting::Haptic,
@@ -385,7 +391,9 @@ impl Settings {
             Setting::Language => Range::Choice(TONGUES.len()),
             Setting::Volume => Range::Scale((VOLUME_MAX / VOLUME_STEP).into()),
             // From one step on: a mouse that moves nothing is of no use.
-            Setting::MouseSpeed => Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into()),
+            Setting::MouseSpeed | Setting::StylusSpeed => {
+                Range::Scale((MOUSE_MAX / MOUSE_STEP - 1).into())
+            }
             Setting::FullScreen | Setting::Rumble => Range::Choice(2),
             Setting::AimAid => Range::Choice(AimAid::ALL.len()),
             Setting::Haptic => Range::Choice(HapticChoice::ALL.len()),
@@ -406,6 +414,9 @@ impl Settings {
             Setting::Volume => (self.volume_percent.min(VOLUME_MAX) / VOLUME_STEP).into(),
             Setting::MouseSpeed => {
                 (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
+            }
+            Setting::StylusSpeed => {
+                (self.stylus_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
             }
             Setting::FullScreen => self.full_screen.into(),
             Setting::Rumble => self.rumble.into(),
@@ -430,6 +441,7 @@ impl Settings {
             Setting::Language => self.language = TONGUES[place],
             Setting::Volume => self.volume_percent = u16::from(steps) * VOLUME_STEP,
             Setting::MouseSpeed => self.mouse_percent = (u16::from(steps) + 1) * MOUSE_STEP,
+            Setting::StylusSpeed => self.stylus_percent = (u16::from(steps) + 1) * MOUSE_STEP,
             Setting::FullScreen => self.full_screen = place == 1,
             Setting::Rumble => self.rumble = place == 1,
             Setting::AimAid => self.aim_aid = AimAid::ALL[place],
@@ -447,7 +459,9 @@ impl Settings {
             Setting::StrengthOne => two && self.player_1 == Seat::Computer,
             Setting::PlayerTwo => two,
             Setting::StrengthTwo => two && self.player_2 == Seat::Computer,
-            Setting::Steering => !matches!(self.haptic, HapticChoice::None | HapticChoice::Mouse),
+            Setting::Steering | Setting::StylusSpeed => {
+                !matches!(self.haptic, HapticChoice::None | HapticChoice::Mouse)
+            }
             _ => true,
         }
     }
@@ -492,6 +506,11 @@ impl Settings {
     /// What a movement of the mouse is multiplied by.
     pub fn mouse_factor(&self) -> f64 {
         f64::from(self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
+    }
+
+    /// What a movement of a stylus is multiplied by where it points or leads the camera.
+    pub fn stylus_factor(&self) -> f64 {
+        f64::from(self.stylus_percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
     }
 
     /// What the scene's volume is multiplied by.

@@ -128,6 +128,7 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
         Setting::Language => words.get(settings.language.key()),
         Setting::Volume => percent(settings.volume_percent),
         Setting::MouseSpeed => percent(settings.mouse_percent),
+        Setting::StylusSpeed => percent(settings.stylus_percent),
         Setting::AimAid => words.get(match settings.aim_aid {
             AimAid::None => "aid_none",
             AimAid::Line => "aid_line",

@@ -3,7 +3,7 @@
 use super::super::hud;
 use super::Desk;
 use glam::DVec2;
-use hapticbillard::input::{PadInput, RawInput, StylusSays};
+use hapticbillard::input::{HumanMode, PadInput, RawInput, StylusSays};
 use hapticbillard::menu::{Order, Pointed};
 use hapticbillard::renderer::MenuLayout;
 use std::time::Duration;
@@ -23,12 +23,14 @@ impl Desk<'_> {
     /// keyboard is meant.
     pub(super) fn hear_pads(&mut self, flow: &mut ControlFlow) {
         let Some(pads) = &self.pads else { return };
+        let orders = self.lobby.pass(self.now_s());
         let is_meant = |report: &PadInput| {
             self.is_focused || matches!(report, PadInput::Connected | PadInput::Lost)
         };
         for report in pads.take().into_iter().filter(is_meant).collect::<Vec<_>>() {
             self.hear(RawInput::Pad(report), flow);
         }
+        self.obey(orders, flow);
     }
 
     /// A stylus has said something.
@@ -80,6 +82,8 @@ impl Desk<'_> {
     pub(super) fn take_up_stylus(&mut self) {
         self.drop_stylus();
         self.haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
+        let factor = self.lobby.menu().map_or(1.0, |menu| menu.settings.stylus_factor());
+        self.stylus_mouse.set_faster(factor);
         self.seek(false);
     }
 
@@ -138,5 +142,19 @@ impl Desk<'_> {
         let (_, hud) = self.shown.as_ref()?;
         let size = self.window.inner_size();
         hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
+    }
+
+    /// While time stands still, something is to be chosen or no game goes on, the pointer belongs
+    /// to the player's desk.
+    pub(super) fn hold_pointer(&mut self) {
+        let is_free = |mode| matches!(mode, HumanMode::Paused | HumanMode::Choosing);
+        let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game.mode()));
+        let is_seen = goes_on || self.lobby.is_replaying();
+        let is_playing = self.is_focused && is_seen && !self.lobby.is_menu_open();
+        if is_playing && !self.pointer.is_caught() {
+            self.pointer.catch(&self.window);
+        } else if !is_playing && self.pointer.is_caught() {
+            self.pointer.release(&self.window);
+        }
     }
 }

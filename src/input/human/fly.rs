@@ -40,7 +40,7 @@ impl Human {
     /// One tick of an eye that the stylus leads.
     pub(in crate::input) fn fly_by(&mut self, hand: &CameraHand) {
         let drive = hand.drive(self.steering);
-        self.fly(&drive);
+        self.fly(&drive.faster(self.stylus_speed));
     }
 
     fn fly(&mut self, drive: &Drive) {

@@ -115,6 +115,14 @@ impl Human {
         self.turn(left * AIM_RAD_PER_S * fine);
     }
 
+    /// Moves the tip on the ball [ball radii].
+    pub(super) fn shift_tip(&mut self, right: f64, upwards: f64) {
+        self.change_aim(|aim| {
+            aim.side_offset += right;
+            aim.height_offset += upwards;
+        });
+    }
+
     /// Turns the cue to the left, or the workspace of a stylus.
     pub(super) fn turn(&mut self, by_rad: f64) {
         if by_rad != 0.0 && !self.turn_workspace(by_rad, 0.0) {

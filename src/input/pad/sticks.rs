@@ -73,6 +73,12 @@ impl PadState {
         Some(PadMeaning::Hand(HandInput::Stick { stick, at: shaped(at) }))
     }
 
+    /// How the left stick moves a menu as long as it is pushed out of the middle.
+    pub fn leans(&self) -> Option<Action> {
+        let (action, way) = WAYS.iter().find(|(action, _)| Some(*action) == self.pushed)?;
+        (NO_LONGER <= self.left.dot(*way)).then_some(*action)
+    }
+
     /// The left stick was pushed out of the middle since this was asked last: how it moves a menu.
     pub fn pushed(&mut self) -> Option<Action> {
         if let Some(pushed) = self.pushed {

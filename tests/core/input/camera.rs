@@ -3,7 +3,9 @@
 use super::desk::{Desk, free_play};
 use glam::{DVec2, DVec3};
 use hapticbillard::haptic::Leads;
-use hapticbillard::input::{Button, CameraHand, CameraPose, HumanMode, Key, RawInput, StylusWord};
+use hapticbillard::input::{
+    Button, CameraHand, CameraPose, HandInput, HumanMode, Key, RawInput, StylusWord,
+};
 
 fn desk() -> Desk {
     let mut desk = Desk::new(&free_play(&[(0, -0.4, 0.0), (1, 0.4, 0.0)]));
@@ -94,6 +96,18 @@ fn a_stylus_leads_it_and_no_cue() {
     // 15 mm beyond the threshold are 0.9 m/s.
     let walked = camera(&desk).eye - before.eye;
     assert!((walked.length() - 0.45).abs() < 1e-6, "{walked}");
+    // Who wants it slower has it slower.
+    let half = HandInput::StylusSpeed(0.5);
+    let word = StylusWord::Held {
+        direction: DVec3::X,
+        armed: false,
+        path: None,
+        camera: Some(camera_hand),
+    };
+    let before = camera(&desk);
+    (0..100).for_each(|_| desk.hear_beside(&[half], word.clone()));
+    let walked = camera(&desk).eye.distance(before.eye);
+    assert!((walked - 0.045).abs() < 1e-6, "{walked}");
     assert_eq!(desk.commands().len(), tips, "the cue moves");
     desk.key(Key::Escape);
     desk.wait(2);

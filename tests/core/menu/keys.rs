@@ -103,6 +103,49 @@ fn help_is_shown_in_menus_and_in_games_and_any_key_closes_it_in_a_menu() {
 }
 
 #[test]
+fn what_a_gamepad_holds_goes_on_along_the_lines_and_nothing_else_does() {
+    let mut lobby = Lobby::new(Some(menu()));
+    lobby.open_main();
+    let line = |lobby: &Lobby| seen(lobby.menu().unwrap()).1;
+    let stick = |value| RawInput::Pad(PadInput::Axis { axis: PadAxis::LeftY, value });
+    lobby.hear(stick(-0.9), None);
+    assert_eq!(line(&lobby), "tutorial");
+    // For so long it is one push; then it goes on, at its own pace and not at the window's.
+    let mut now_s = 10.0;
+    let mut wait = |lobby: &mut Lobby, seconds: f64| {
+        for _ in 0..(seconds * 1000.0) as u32 {
+            now_s += 0.001;
+            assert!(lobby.pass(now_s).is_empty());
+        }
+    };
+    wait(&mut lobby, 0.4);
+    assert_eq!(line(&lobby), "tutorial");
+    wait(&mut lobby, 0.1);
+    assert_eq!(line(&lobby), "options");
+    wait(&mut lobby, 0.2);
+    assert_ne!(line(&lobby), "options");
+    lobby.hear(stick(0.0), None);
+    let stays = line(&lobby);
+    wait(&mut lobby, 2.0);
+    assert_eq!(line(&lobby), stays);
+    // A button of the cross likewise; the one that chooses chooses once.
+    let button = |button, down| RawInput::Pad(PadInput::Button { button, down });
+    lobby.hear(button(PadButton::Up, true), None);
+    let once = line(&lobby);
+    wait(&mut lobby, 0.5);
+    assert_ne!(line(&lobby), once);
+    lobby.hear(button(PadButton::Up, false), None);
+    while line(&lobby) != "options" {
+        lobby.hear(button(PadButton::Down, true), None);
+        lobby.hear(button(PadButton::Down, false), None);
+    }
+    lobby.hear(button(PadButton::A, true), None);
+    let stays = line(&lobby);
+    wait(&mut lobby, 2.0);
+    assert_eq!(line(&lobby), stays);
+}
+
+#[test]
 fn a_gamepad_that_goes_lets_go_of_everything_stops_time_and_is_said() {
     let mut lobby = Lobby::new(Some(menu()));
     lobby.began();
