@@ -278,6 +278,7 @@ impl FeltMouse {
             | HandInput::Points { .. }
             | HandInput::Hold(_)
             | HandInput::StylusSpeed(_)
+            | HandInput::Paused(_)
             | HandInput::Steering(_) => return,
         };
         self.say(heard);

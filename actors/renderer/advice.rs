@@ -1,6 +1,7 @@
 //! Somebody who is asked what to play, and thinks on a thread of its own.
 
 use hapticbillard::ai::{Advice, Adviser, Inline};
+use hapticbillard::ball::BallState;
 use hapticbillard::events::{Topics, Turn};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::tick::Delivered;
@@ -35,15 +36,35 @@ pub enum Answer {
     Here(Advice),
     /// There is nothing to be played.
     Nothing,
+    /// Nobody aims at that table any more.
+    Late,
+}
+
+/// What was asked about: a turn, and the table in it.
+struct Asked {
+    turn: Arc<Turn>,
+    table: Arc<Snapshot>,
+}
+
+impl Asked {
+    /// Whether this is the same turn, and all balls lie as they lay.
+    fn is(&self, turn: &Turn, table: &Snapshot) -> bool {
+        let balls = self.table.balls.iter().zip(&table.balls);
+        let lies =
+            |(a, b): (&BallState, &BallState)| (a.position, a.place) == (b.position, b.place);
+        (self.turn.player, self.turn.shot_number) == (turn.player, turn.shot_number)
+            && self.table.balls.len() == table.balls.len()
+            && balls.into_iter().all(lies)
+    }
 }
 
 /// The adviser of a game, in the window.
 pub struct AdviceScreen {
     adviser: Adviser,
-    /// The turn that was asked about, by its number, and where the answer comes.
-    asked: Option<(Arc<Turn>, flume::Receiver<Option<Advice>>)>,
-    /// What is shown, and for which turn.
-    shown: Option<(Arc<Turn>, Advice)>,
+    /// What is asked, and where the answer comes.
+    asked: Option<(Asked, flume::Receiver<Option<Advice>>)>,
+    /// What is shown, and for what.
+    shown: Option<(Asked, Advice)>,
 }
 
 impl AdviceScreen {
@@ -67,7 +88,7 @@ impl AdviceScreen {
     ///
     /// # Errors
     /// [`NoAdvice`] if it thinks already, or the system gives no thread.
-    pub fn ask(&mut self, turn: Arc<Turn>, table: &Snapshot) -> Result<(), NoAdvice> {
+    pub fn ask(&mut self, turn: Arc<Turn>, table: &Arc<Snapshot>) -> Result<(), NoAdvice> {
         if self.asked.is_some() {
             return Err(NoAdvice::Thinks);
         }
@@ -82,37 +103,29 @@ impl AdviceScreen {
             tracing::warn!("no thread to think on: {error}");
             NoAdvice::Nobody
         })?;
-        (self.asked, self.shown) = (Some((turn, answer)), None);
+        let asked = Asked { turn, table: table.clone() };
+        (self.asked, self.shown) = (Some((asked, answer)), None);
         Ok(())
     }
 
-    /// What came of the question, once, if it is still the turn that it was about.
-    pub fn take(&mut self, turn: Option<&Arc<Turn>>) -> Option<Answer> {
-        let is_same = |one: &Arc<Turn>| {
-            turn.is_some_and(|turn| {
-                (one.player, one.shot_number) == (turn.player, turn.shot_number)
-            })
-        };
-        if self.shown.as_ref().is_some_and(|(of, _)| !is_same(of)) {
-            self.shown = None;
-        }
-        let answer = match &self.asked.as_ref()?.1.try_recv() {
-            Ok(answer) => answer.clone(),
+    /// What came of the question, once; `turn`: somebody aims in it now.
+    pub fn take(&mut self, turn: Option<&Arc<Turn>>, table: &Snapshot) -> Option<Answer> {
+        let is_now = |asked: &Asked| turn.is_some_and(|turn| asked.is(turn, table));
+        self.shown.take_if(|(asked, _)| !is_now(asked));
+        let answer = match self.asked.as_ref()?.1.try_recv() {
+            Ok(answer) => answer,
             Err(flume::TryRecvError::Empty) => return None,
             Err(flume::TryRecvError::Disconnected) => None,
         };
-        let (of, _) = self.asked.take()?;
-        if !is_same(&of) {
-            return None;
-        }
-        let Some(advice) = answer else { return Some(Answer::Nothing) };
-        self.shown = Some((of, advice.clone()));
-        Some(Answer::Here(advice))
-    }
-
-    /// It is no longer shown.
-    pub fn forget(&mut self) {
-        self.shown = None;
+        let (asked, _) = self.asked.take()?;
+        Some(match answer {
+            _ if !is_now(&asked) => Answer::Late,
+            None => Answer::Nothing,
+            Some(advice) => {
+                self.shown = Some((asked, advice.clone()));
+                Answer::Here(advice)
+            }
+        })
     }
 
     /// What is shown.

@@ -159,6 +159,7 @@ impl<'a> Desk<'a> {
     pub fn end(mut self) -> Result<(), Error> {
         // The hand may wait for no more reports; the pointer is the desk's again.
         self.pointer.release(&self.window);
+        self.free_stylus();
         self.keep();
         self.stop.set();
         if let Some(finished) = self.game.as_mut().and_then(Running::join) {
@@ -355,7 +356,8 @@ impl<'a> Desk<'a> {
         self.keep();
         // The device is the game's.
         self.game = None;
-        self.drop_stylus();
+        self.free_stylus();
+        self.view = View::Usual;
         let language = self.spoken;
         let settings = self.lobby.menu().map(|menu| &menu.settings);
         let prepared = self.host.prepare(settings, language, begin)?;
@@ -442,14 +444,12 @@ impl<'a> Desk<'a> {
 
     /// What is set becomes true in the game.
     fn apply(&mut self) {
-        let factor = self.lobby.menu().map_or(1.0, |menu| menu.settings.stylus_factor());
-        self.stylus_mouse.set_faster(factor);
         let (Some(menu), Some(game)) = (self.lobby.menu(), &mut self.game) else { return };
         let aid = menu.settings.aim_aid;
         if self.aid.replace(aid) != Some(aid) {
             game.outbox.say(HandInput::Aid(aid));
         }
-        game.outbox.say(HandInput::StylusSpeed(factor));
+        game.outbox.say(HandInput::StylusSpeed(menu.settings.stylus_factor()));
         let steering = menu.settings.steering;
         if self.steering.replace(steering) != Some(steering) {
             game.outbox.say(HandInput::Steering(steering));

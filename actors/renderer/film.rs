@@ -28,7 +28,7 @@ impl FilmScreen {
     /// A fact says where shots begin and end.
     pub fn hear(&mut self, fact: &Fact) {
         match fact.kind {
-            FactKind::CueBallStruck { .. } => self.reel.struck(),
+            FactKind::CueBallStruck { ball, .. } => self.reel.struck(ball),
             FactKind::Settled { .. } => self.reel.settled(fact.time_s),
             _ => {}
         }
@@ -39,9 +39,14 @@ impl FilmScreen {
         self.reel.has_film()
     }
 
-    /// The ways of the balls in the last shot.
+    /// The ways of the balls in the film that is shown, or in the last shot.
     pub fn ways(&self) -> &[BallWay] {
-        self.reel.ways()
+        self.shown.as_ref().map_or_else(|| self.reel.ways(), |shown| shown.film().ways())
+    }
+
+    /// The shot is taken back.
+    pub fn forget(&mut self) {
+        self.reel.forget();
     }
 
     /// Shows it.
@@ -78,8 +83,9 @@ impl FilmScreen {
     }
 
     /// What is written over it.
-    pub fn written(&self, board: &Scoreboard, words: &Words) -> Hud {
+    pub fn written(&self, board: &Scoreboard, is_by_pad: bool, words: &Words) -> Hud {
         let Some(shown) = &self.shown else { return Hud::default() };
-        Hud::of_film(board, shown.place_s(), shown.rate(), words)
+        let hud = Hud::of_film(board, shown.place_s(), shown.rate(), words);
+        if is_by_pad { Hud { hint: words.get("film_hint_pad"), ..hud } } else { hud }
     }
 }

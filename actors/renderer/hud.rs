@@ -211,7 +211,6 @@ impl Pen<'_> {
         }
     }
 
-    /// What is announced, above the hint.
     /// A lesson stands over the hint.
     fn lesson(&self, title: &str, text: &str) {
         let top = self.screen.center_bottom() - vec2(0.0, 140.0 * self.unit);
@@ -219,6 +218,7 @@ impl Pen<'_> {
         self.paragraph(top, 640.0 * self.unit, &lines);
     }
 
+    /// What is announced, above the hint.
     fn call(&self, call: Option<&str>) {
         if let Some(call) = call {
             let bottom = self.screen.center_bottom() - vec2(0.0, 92.0 * self.unit);

@@ -1,6 +1,6 @@
 //! One game beside its window: its thread, and the window's ends of what joins them.
 
-use super::advice::{AdviceScreen, NoAdvice};
+use super::advice::{AdviceScreen, Answer, NoAdvice};
 use super::felt::{FeltScreen, FeltSetup};
 use super::film::FilmScreen;
 use super::game_thread::GameThread;
@@ -13,7 +13,7 @@ use crate::event_manager::Sink;
 use crate::meters::Meters;
 use glam::DVec2;
 use hapticbillard::ai::Adviser;
-use hapticbillard::events::{Event, Topic, Topics};
+use hapticbillard::events::{Command, Event, Topic, Topics};
 use hapticbillard::ids::GameKind;
 use hapticbillard::input::{
     Bindings, HandInput, HumanMode, HumanView, Room, Rumble, StylusMouse, StylusSays, Tutor,
@@ -221,6 +221,14 @@ impl Running {
         }
     }
 
+    /// What came of the question what to play, once.
+    pub fn take_advice(&mut self) -> Option<Answer> {
+        let table = self.world.read().clone();
+        let is_aiming = self.view.read().mode == HumanMode::Aiming;
+        let turn = self.board.turn.as_ref().filter(|_| is_aiming && !self.board.is_rolling);
+        self.advice.as_mut()?.take(turn, &table)
+    }
+
     /// Asks what to play, if that can be asked now.
     pub fn ask_advice(&mut self) -> Result<(), NoAdvice> {
         let table = self.world.read().clone();
@@ -248,6 +256,9 @@ impl Running {
                 if let Some(tutor) = &mut self.tutor {
                     tutor.hear(&stamped.event);
                 }
+                if matches!(stamped.event, Event::Command(Command::Undo)) {
+                    self.film.forget();
+                }
                 if let Event::Fact(fact) = &stamped.event {
                     self.film.hear(fact);
                     let felt = Rumble::of(fact).into_iter().chain(self.shake);
@@ -267,26 +278,27 @@ impl Running {
     pub fn seen(&mut self, view: &HumanView, is_by_pad: bool, now_s: f64) -> (DrawList, Hud) {
         let dt = now_s - std::mem::replace(&mut self.drawn_s, now_s);
         if let Some((world, view)) = self.film.seen(dt) {
-            let view = self.hung(view.carried(&world), dt);
+            let view = self.mount.carry(view, &world);
+            let view = self.hung(view, dt);
             let mut list = DrawList::new(&world, &view, &self.radii);
             if self.shows_traces {
                 list.show_traces(self.film.ways(), view.cue_ball, &self.radii);
             }
-            return (list, self.film.written(&self.board, &self.words));
+            return (list, self.film.written(&self.board, is_by_pad, &self.words));
         }
         let (mut list, mut written) = self.drawn(view, now_s, dt);
         if self.shows_traces {
             list.show_traces(self.film.ways(), view.cue_ball, &self.radii);
-        }
-        if let Some(tutor) = &mut self.tutor {
-            tutor.see(view);
-            written = written.with_lesson(tutor, view, is_by_pad, &self.words);
         }
         if let Some(advice) = self.advice.as_ref().and_then(AdviceScreen::shown) {
             draw_thoughts(&advice.insight, &self.radii, &mut list);
         }
         if is_by_pad {
             written = written.for_pad(view, &self.words);
+        }
+        if let Some(tutor) = &mut self.tutor {
+            tutor.see(view);
+            written = written.with_lesson(tutor, view, is_by_pad, &self.words);
         }
         if let Some(insight) = self.board.insight.as_ref().filter(|_| self.shows_thoughts) {
             draw_thoughts(insight, &self.radii, &mut list);
@@ -319,7 +331,7 @@ impl Running {
 
     fn drawn(&mut self, view: &HumanView, now_s: f64, dt: f64) -> (DrawList, Hud) {
         let world = self.playhead.shown(now_s);
-        let mut view = view.clone().carried(&world);
+        let mut view = self.mount.carry(view.clone(), &world);
         if let Some(felt) = &mut self.felt {
             view = felt.view(&view, &world, &self.table, &self.radii, now_s);
         }

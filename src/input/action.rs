@@ -95,9 +95,9 @@ actions! {
     /// Held: the wheel menu.
     Wheel "wheel" Eye;
     /// The last shot is seen again, or no longer.
-    Replay "replay" Show;
+    Replay "replay" Clock;
     /// Where the balls of the last shot went, or no longer.
-    Traces "traces" Show;
+    Traces "traces" Eye;
     /// The computer aims.
     Suggest "suggest" Show;
     /// The film stands still, or goes on.

@@ -38,6 +38,8 @@ const ROUND_M: f64 = 1.1;
 const ROUND_RISE_RAD: f64 = 28.0 * DEGREE;
 /// The eye that follows the cue ball: how far behind, looking how far ahead [m], how high [rad].
 const FOLLOW: (f64, f64, f64) = (0.9, 0.45, 24.0 * DEGREE);
+/// An aim that turns by more at once is another one [rad].
+const FOLLOW_TURN_RAD: f64 = 20.0 * DEGREE;
 /// The eye at an end or a side of the table: how far beyond its bed, and how high over it [m].
 const BESIDE_M: (f64, f64) = (1.05, 1.0);
 /// No eye sets out faster than this [m/s]: what turns with the cue does.
@@ -87,8 +89,12 @@ impl Viewpoint {
     /// ball is where the ball is.
     fn is_like(&self, other: &Viewpoint) -> bool {
         match (self, other) {
-            (Viewpoint::Round { .. }, Viewpoint::Round { .. })
-            | (Viewpoint::Follow { .. }, Viewpoint::Follow { .. }) => true,
+            (Viewpoint::Round { .. }, Viewpoint::Round { .. }) => true,
+            // A new turn begins with another aim.
+            (Viewpoint::Follow { aim: a, .. }, Viewpoint::Follow { aim: b, .. }) => {
+                let turned = a.azimuth_rad - b.azimuth_rad;
+                libm::remainder(turned, std::f64::consts::TAU).abs() < FOLLOW_TURN_RAD
+            }
             (Viewpoint::Cue { ball: a, .. }, Viewpoint::Cue { ball: b, .. })
             | (Viewpoint::Watch { ball: a, .. }, Viewpoint::Watch { ball: b, .. }) => a == b,
             _ => self == other,
@@ -146,7 +152,7 @@ impl Camera {
     }
 
     /// Leaves from where it is, as fast as it is.
-    fn set_out(&mut self) {
+    pub fn set_out(&mut self) {
         self.from = self.pose();
         let speed = (self.from.eye - self.before.eye) / TICK_S;
         self.set_out = speed.clamp_length_max(SET_OUT_M_S);

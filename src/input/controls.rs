@@ -89,8 +89,8 @@ impl Controls {
         self.held.clear();
     }
 
-    /// Whether a key for this is down.
-    fn has(&self, action: Action) -> bool {
+    /// Whether a key for this is down, and means it.
+    pub fn has(&self, action: Action) -> bool {
         self.held.values().any(|held| *held == Some(action))
     }
 }

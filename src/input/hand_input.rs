@@ -57,6 +57,8 @@ pub enum HandInput {
     },
     /// So much help is wanted while aiming, from now on.
     Aid(AimAid),
+    /// Time stands still from now on, or goes on, whatever it did.
+    Paused(bool),
     /// Nobody listens to the devices any more: everything held counts as let go.
     FocusLost,
     /// A gamepad is gone: everything held counts as let go, and time stands still.

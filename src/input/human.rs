@@ -227,6 +227,8 @@ impl Human {
         heard: &[HandInput],
         word: Option<&StylusWord>,
     ) -> Inflow {
+        // Where the eye was a tick ago is known before anything leads it.
+        self.camera.step();
         let mut up = 0.0;
         let mut quit = false;
         for input in heard {
@@ -239,7 +241,6 @@ impl Human {
             self.follow_stylus(tick, word);
         }
         self.fly_by_keys();
-        self.camera.step();
         if !self.paused {
             up += self.key_movement();
             self.move_tip(tick, up);
@@ -277,6 +278,8 @@ impl Human {
             HandInput::Hold(aim) => self.hold_so(aim),
             HandInput::Steering(steering) => self.steering = steering,
             HandInput::StylusSpeed(factor) => self.stylus_speed = factor,
+            HandInput::Paused(paused) if paused == self.paused => {}
+            HandInput::Paused(_) => self.pause_or_resume(),
             HandInput::FocusLost => self.forget(),
             HandInput::PadLost => {
                 self.forget();

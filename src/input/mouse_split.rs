@@ -45,6 +45,7 @@ impl MouseSplit {
             | HandInput::Hold(_)
             | HandInput::Steering(_)
             | HandInput::StylusSpeed(_)
+            | HandInput::Paused(_)
             | HandInput::Stick { .. }
             | HandInput::Trigger(_) => Reader::Eye,
             HandInput::FocusLost | HandInput::PadLost => {

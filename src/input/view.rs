@@ -3,7 +3,6 @@
 use super::{BallWay, CallView};
 use crate::cue::Aim;
 use crate::ids::BallId;
-use crate::physics::Snapshot;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -212,18 +211,4 @@ pub struct HumanView {
     pub look: Look,
     /// The panel of the haptic device is not as the scene begins with it: shown or hidden.
     pub overlay: bool,
-}
-
-impl HumanView {
-    /// The same with a camera that goes with its ball, where that is in this world.
-    #[must_use]
-    pub fn carried(mut self, world: &Snapshot) -> Self {
-        let Some((ball, from)) = self.rides else { return self };
-        if let Some(at) = world.on_table().find(|one| one.id == ball) {
-            let by = (at.position - from).with_z(0.0);
-            self.camera.eye += by;
-            self.camera.target += by;
-        }
-        self
-    }
 }

@@ -369,6 +369,8 @@ impl Lobby {
                 }
             }
             (_, Edge::Pressed) if action == Action::Replay => self.begin_replay(),
+            (_, Edge::Pressed) if action == Action::Traces => vec![Order::Do(action)],
+            _ if matches!(action, Action::Replay | Action::Traces) => Vec::new(),
             _ if self.game == Game::Over && matches!(action, Action::Pause | Action::Quit) => {
                 if edge == Edge::Pressed {
                     vec![Order::Quit]
@@ -384,6 +386,8 @@ impl Lobby {
             }
             _ if is_for_hand(action) => {
                 let down = edge == Edge::Pressed;
+                // Whoever stops time means it, whatever was told before.
+                self.is_resuming &= action != Action::Pause;
                 vec![self.tells(HandInput::Act { action, down })]
             }
             (_, Edge::Pressed) => vec![Order::Do(action)],
@@ -462,6 +466,8 @@ impl Lobby {
             return vec![Order::Say("pad_lost")];
         }
         self.has_lost_pad = !self.is_menu_open();
+        // After a film time stands still too.
+        self.replay = self.replay.map(|_| false);
         vec![Order::Tell(HandInput::PadLost), Order::Say("pad_lost")]
     }
 

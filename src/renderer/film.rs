@@ -30,6 +30,9 @@ const WAY_STEP_M: f64 = 0.012;
 pub struct Film {
     /// In the order of time; never empty.
     frames: Vec<Arc<Snapshot>>,
+    /// The ball that was struck.
+    cue_ball: BallId,
+    ways: Vec<BallWay>,
 }
 
 impl Film {
@@ -51,6 +54,16 @@ impl Film {
         }
     }
 
+    /// The ball that was struck.
+    pub fn cue_ball(&self) -> BallId {
+        self.cue_ball
+    }
+
+    /// The ways of its balls.
+    pub fn ways(&self) -> &[BallWay] {
+        &self.ways
+    }
+
     /// The cue at the beginning, if there is one.
     pub fn cue(&self) -> Option<CuePose> {
         self.frames.iter().find_map(|frame| frame.cue)
@@ -66,6 +79,8 @@ pub struct Reel {
     /// Balls have come to rest then, and the film goes on for a moment.
     rests_s: Option<Seconds>,
     last: Option<Arc<Film>>,
+    /// The ball that was struck last.
+    cue_ball: BallId,
     ways: Vec<BallWay>,
 }
 
@@ -93,8 +108,9 @@ impl Reel {
     }
 
     /// A ball was struck.
-    pub fn struck(&mut self) {
+    pub fn struck(&mut self, ball: BallId) {
         if !self.is_rolling {
+            self.cue_ball = ball;
             // What is left of the shot before.
             if let Some(until_s) = self.rests_s {
                 self.cut(until_s);
@@ -102,6 +118,13 @@ impl Reel {
             self.is_rolling = true;
             self.ways.clear();
         }
+    }
+
+    /// The shot is taken back: what it was nobody wants to see.
+    pub fn forget(&mut self) {
+        self.now.clear();
+        self.ways.clear();
+        (self.is_rolling, self.rests_s, self.last) = (false, None, None);
     }
 
     /// All balls have come to rest at this time [s].
@@ -134,7 +157,8 @@ impl Reel {
         let end = self.now.partition_point(|frame| frame.time_s <= rests_s + TAIL_S);
         let frames: Vec<_> = self.now.drain(..end).collect();
         if !frames.is_empty() {
-            self.last = Some(Arc::new(Film { frames }));
+            let (cue_ball, ways) = (self.cue_ball, self.ways.clone());
+            self.last = Some(Arc::new(Film { frames, cue_ball, ways }));
         }
         self.rests_s = None;
     }
@@ -183,7 +207,7 @@ mod tests {
             let time_s = tick * step_s;
             reel.take(&at(time_s));
             if (time_s - 2.0).abs() < 0.5 * step_s {
-                reel.struck();
+                reel.struck(BallId::CUE);
             }
             if (time_s - 5.0).abs() < 0.5 * step_s {
                 reel.settled(5.0);
@@ -221,7 +245,7 @@ mod tests {
         for n in 0..400 {
             reel.take(&at(5.06 + 0.004 * f64::from(n)));
         }
-        reel.struck();
+        reel.struck(BallId::CUE);
         for n in 0..100 {
             reel.take(&at(6.7 + 0.004 * f64::from(n)));
         }
@@ -244,7 +268,7 @@ mod tests {
     #[test]
     fn a_shot_without_an_end_is_filmed_so_long_and_no_longer() {
         let mut reel = Reel::default();
-        reel.struck();
+        reel.struck(BallId::CUE);
         for n in 0..300_000 {
             reel.take(&at(2.0 + 0.001 * f64::from(n)));
         }

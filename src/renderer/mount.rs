@@ -1,7 +1,8 @@
 //! The ball that the eye hangs on: it is drawn by a spring to where the eye should be, swings a
 //! little when that stops, and does not go through walls, table and lamp (paper, section 2.2.1).
 
-use crate::input::{CameraPose, Room};
+use crate::input::{CameraPose, HumanView, Room};
+use crate::physics::Snapshot;
 use crate::physics::spring::Damped;
 use crate::units::Seconds;
 use glam::DVec3;
@@ -15,6 +16,8 @@ const RESTITUTION: f64 = 0.3;
 const STEP_S: Seconds = 0.004;
 /// The longest time that is caught up with [s]: whoever was away longer finds the eye in place.
 const LONGEST_S: Seconds = 0.25;
+/// What goes faster is no way but a jump [m/s]: the eye is drawn there, and not thrown.
+const FASTEST_M_S: f64 = 12.0;
 /// Nearer and slower than this [m, m/s] the eye is there: what rests is not drawn again.
 const REST: (f64, f64) = (2e-5, 2e-4);
 
@@ -22,6 +25,8 @@ const REST: (f64, f64) = (2e-5, 2e-4);
 #[derive(Debug, Clone, Default)]
 pub struct Mount {
     hung: Option<Hung>,
+    /// How far the ball that the eye goes with had gone when it was last seen [m], and from where.
+    ridden: Option<(DVec3, DVec3)>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -38,6 +43,23 @@ impl Mount {
         self.hung = None;
     }
 
+    /// The same view with an eye that goes with its ball, where that is in this world. A ball that
+    /// falls leaves the eye where it fell.
+    pub fn carry(&mut self, mut view: HumanView, world: &Snapshot) -> HumanView {
+        let Some((ball, from)) = view.rides else {
+            self.ridden = None;
+            return view;
+        };
+        let seen = world.on_table().find(|one| one.id == ball);
+        let by = seen.map(|ball| (ball.position - from).with_z(0.0));
+        let last = self.ridden.filter(|(of, _)| *of == from).map(|(_, by)| by);
+        let by = by.or(last).unwrap_or(DVec3::ZERO);
+        self.ridden = Some((from, by));
+        view.camera.eye += by;
+        view.camera.target += by;
+        view
+    }
+
     /// The picture `dt` after the last one: the eye that should be at `wanted` hangs here.
     pub fn hang(&mut self, wanted: &CameraPose, room: &Room, dt: Seconds) -> CameraPose {
         let Some(hung) = self.hung.filter(|_| (0.0..=LONGEST_S).contains(&dt)) else {
@@ -47,8 +69,9 @@ impl Mount {
         };
         let mut hung = hung;
         let steps = (dt / STEP_S).ceil().max(1.0);
-        let (h, speed) = (dt / steps, (wanted.eye - hung.wanted) / dt.max(1e-9));
-        let from = hung.wanted;
+        let (h, way) = (dt / steps, (wanted.eye - hung.wanted) / dt.max(1e-9));
+        let is_jump = !(way.length() < FASTEST_M_S);
+        let (from, speed) = if is_jump { (wanted.eye, DVec3::ZERO) } else { (hung.wanted, way) };
         let mut left = if 0.0 < dt { steps as u32 } else { 0 };
         while 0 < left {
             left -= 1;
@@ -91,6 +114,8 @@ impl Hung {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ball::{BallPlace, BallState};
+    use crate::ids::BallId;
     use crate::table::Bed;
 
     const DT: Seconds = 1.0 / 60.0;
@@ -176,6 +201,32 @@ mod tests {
         }
         let hung = mount.hung.unwrap();
         assert!(hung.velocity.length() < 1e-3 && hung.at.x < -3.9, "{hung:?}");
+    }
+
+    #[test]
+    fn an_eye_that_jumps_is_drawn_there_and_not_thrown() {
+        let mut mount = Mount::default();
+        mount.hang(&at(DVec3::ZERO), &free(), DT);
+        let far = (0..120).map(|_| mount.hang(&at(DVec3::X * 2.0), &free(), DT).eye.x);
+        let farthest = far.fold(0.0, f64::max);
+        // The overshoot of a step response, e^(−πζ/√(1−ζ²)), of two metres.
+        let zeta = DAMPING_RATIO / (1.0 - DAMPING_RATIO * DAMPING_RATIO).sqrt();
+        let most = 2.0 * (1.0 + libm::exp(-std::f64::consts::PI * zeta));
+        assert!(2.0 < farthest && farthest < most + 1e-3, "{farthest} {most}");
+    }
+
+    #[test]
+    fn a_ball_that_falls_leaves_the_eye_where_it_fell() {
+        let mut mount = Mount::default();
+        let rides = Some((BallId::CUE, DVec3::ZERO));
+        let view = HumanView { rides, camera: at(DVec3::Z), ..HumanView::default() };
+        let world = |x: f64, place| {
+            let ball = BallState { place, ..BallState::at_rest(BallId::CUE, DVec3::X * x) };
+            Snapshot { balls: vec![ball], ..Snapshot::default() }
+        };
+        let mut eye = |x, place| mount.carry(view.clone(), &world(x, place)).camera.eye.x;
+        assert_eq!(eye(0.7, BallPlace::OnTable), 0.7);
+        assert_eq!(eye(9.0, BallPlace::OffTable), 0.7);
     }
 
     #[test]

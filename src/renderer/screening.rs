@@ -39,7 +39,7 @@ impl Screening {
             let way = cue.direction.truncate();
             libm::atan2(way.y, way.x)
         });
-        let eye = Human::onlooker(table, &film.at(0.0), azimuth_rad);
+        let eye = Human::onlooker(table, &film.at(0.0), film.cue_ball(), azimuth_rad);
         Screening {
             film,
             after_s: 0.0,
@@ -92,6 +92,11 @@ impl Screening {
     /// What is seen now, and from where.
     pub fn seen(&self) -> (Snapshot, HumanView) {
         (self.film.at(self.after_s), HumanView { looks_on: true, ..self.eye.view() })
+    }
+
+    /// What is shown.
+    pub fn film(&self) -> &Film {
+        &self.film
     }
 
     /// Its end was looked at.

@@ -2,9 +2,10 @@
 
 use crate::input::desk::{Desk, free_play};
 use hapticbillard::events::FactKind;
+use hapticbillard::ids::BallId;
 use hapticbillard::input::{Action, HandInput, View};
 use hapticbillard::physics::Snapshot;
-use hapticbillard::renderer::{Reel, Screening};
+use hapticbillard::renderer::{Mount, Reel, Screening};
 use hapticbillard::table::Table;
 use std::sync::{Arc, OnceLock};
 
@@ -29,7 +30,7 @@ fn shot() -> &'static (Reel, Vec<Snapshot>) {
             let facts = desk.facts();
             for fact in &facts[known..] {
                 match fact.kind {
-                    FactKind::CueBallStruck { .. } => reel.struck(),
+                    FactKind::CueBallStruck { ball, .. } => reel.struck(ball),
                     FactKind::Settled { .. } => reel.settled(fact.time_s),
                     _ => {}
                 }
@@ -63,6 +64,7 @@ fn the_film_shows_every_ball_where_it_was() {
     }
     // Between two of its pictures a ball may meet another: 4 ms at a metre a second.
     assert!(worst < 2e-3, "{worst} m");
+    assert_eq!((film.cue_ball(), film.ways()), (BallId::CUE, reel.ways()));
     let moved = reel.ways().iter().filter(|way| 10 < way.points.len()).count();
     assert_eq!(moved, 2, "both balls leave a trace");
 }
@@ -101,14 +103,23 @@ fn the_eye_rides_with_the_ball_of_the_film() {
     let film = shot().0.clone().film().unwrap();
     let mut shown = Screening::new(film, table());
     (0..120).for_each(|_| shown.pass(1.0 / 60.0));
-    let eye = |shown: &Screening| {
+    let mut mount = Mount::default();
+    let mut eye = |shown: &Screening| {
         let (world, view) = shown.seen();
         let ball = world.balls[0].position;
-        view.carried(&world).camera.eye - ball
+        mount.carry(view, &world).camera.eye - ball
     };
     let (before, place) = (eye(&shown), shown.seen().0.balls[0].position);
     (0..60).for_each(|_| shown.pass(1.0 / 60.0));
     let moved = shown.seen().0.balls[0].position.distance(place);
     assert!(0.05 < moved, "the ball goes on: {moved}");
     assert!((eye(&shown) - before).with_z(0.0).length() < 1e-6);
+}
+
+#[test]
+fn a_shot_that_is_taken_back_leaves_no_film() {
+    let mut reel = shot().0.clone();
+    assert!(reel.has_film());
+    reel.forget();
+    assert!(!reel.has_film() && reel.film().is_none() && reel.ways().is_empty());
 }

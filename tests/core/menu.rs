@@ -335,6 +335,7 @@ impl Toy {
         match input {
             HandInput::Closed => self.is_over = true,
             HandInput::FocusLost => self.held.clear(),
+            HandInput::Paused(paused) => self.is_paused = paused,
             HandInput::PadLost => {
                 self.held.clear();
                 self.is_paused = true;
@@ -355,7 +356,8 @@ impl Toy {
 
 #[test]
 fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
-    const KEYS: [Key; 14] = [
+    const KEYS: [Key; 15] = [
+        Key::Letter('y'),
         Key::Up,
         Key::Down,
         Key::Left,
@@ -377,7 +379,7 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
     let mut lobby = Lobby::new(Some(menu()));
     lobby.open_main();
     let mut toy: Option<Toy> = None;
-    let (mut games, mut quits) = (0, 0);
+    let (mut games, mut quits, mut films) = (0, 0, 0);
     for step in 0..100_000 {
         let place = DVec2::new(random.random(), random.random());
         let line = (place.x * 8.0) as usize;
@@ -408,6 +410,7 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
                 let report = if down { PadInput::Connected } else { PadInput::Lost };
                 lobby.hear(RawInput::Pad(report), pointed)
             }
+            15 if step % 2 == 0 && lobby.is_replaying() => lobby.end_replay(),
             _ => lobby.hear(RawInput::FocusLost, pointed),
         };
         if let Some(game) = &toy {
@@ -421,10 +424,12 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
                 Order::Begin(_) => {
                     (games, toy) = (games + 1, Some(Toy::default()));
                     lobby.began();
+                    lobby.see_film(true);
                 }
                 Order::Clear => toy = None,
+                Order::Replay(_) => films += 1,
                 Order::Apply | Order::Rebound | Order::Say(_) | Order::Do(_) => {}
-                Order::Replay(_) | Order::Onlook(_) => {}
+                Order::Onlook(_) => {}
                 Order::Quit => {
                     // As if the program were started again.
                     (quits, toy) = (quits + 1, None);
@@ -444,11 +449,13 @@ fn no_sequence_of_events_loses_a_menu_or_leaves_a_button_stuck() {
             lobby.is_menu_open() || goes_on || lobby.is_playing(),
             "step {step}: nothing is open"
         );
-        if let Some(game) = toy.as_ref().filter(|_| lobby.is_menu_open() && !lobby.is_over()) {
+        let stands = lobby.is_menu_open() || lobby.is_replaying();
+        if let Some(game) = toy.as_ref().filter(|_| stands && !lobby.is_over()) {
             assert!(game.held.is_empty(), "step {step}: {:?} are stuck", game.held);
         }
     }
     assert!(games > 100 && quits > 100, "{games} games, {quits} ends");
+    assert!(films > 100, "{films} films");
 }
 
 /// No gamepad between the player and the window, or one that says at once what is done.

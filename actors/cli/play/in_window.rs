@@ -231,11 +231,13 @@ impl Host for House<'_> {
         let stage = match settings.haptic {
             HapticChoice::None if self.is_set => return None,
             HapticChoice::None if self.stage.scene.haptic.is_none() => return None,
-            HapticChoice::None => Ok(self.stage.with(self.stage.header().overrides)),
-            _ => stage_of(settings, Language::English),
+            HapticChoice::None => Some(self.stage.with(self.stage.header().overrides)),
+            _ => None,
         };
+        let settings = settings.clone();
         Some(Box::new(move || {
-            let plan = stage?.haptic()?;
+            let stage = stage.map_or_else(|| stage_of(&settings, Language::English), Ok)?;
+            let plan = stage.haptic()?;
             let Some(opened) = plan.map(|plan| plan.opened).filter(|opened| opened.points) else {
                 return Ok(None);
             };

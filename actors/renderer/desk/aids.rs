@@ -1,6 +1,6 @@
 //! What helps a player in a window: the last shot again, advice, lessons, another view.
 
-use super::super::advice::{AdviceScreen, Answer};
+use super::super::advice::Answer;
 use super::{Desk, SAID};
 use hapticbillard::input::{Action, HandInput, View};
 use hapticbillard::menu::Order;
@@ -47,12 +47,7 @@ impl Desk<'_> {
                 }
             }
         }
-        let turn = game.board.turn.clone();
-        if game.board.is_rolling {
-            game.advice.iter_mut().for_each(AdviceScreen::forget);
-        }
-        let answer = game.advice.as_mut().and_then(|advice| advice.take(turn.as_ref()));
-        let said = match answer {
+        let said = match game.take_advice() {
             Some(Answer::Here(advice)) => {
                 game.outbox.say(HandInput::Hold(advice.aim));
                 let speed = format!("{:.1}", advice.speed_m_s);
@@ -60,6 +55,7 @@ impl Desk<'_> {
                 words.fill("advice", "speed", &speed).replace("{chance}", &chance)
             }
             Some(Answer::Nothing) => words.get("advice_nothing"),
+            Some(Answer::Late) => words.get("advice_not_now"),
             None => match self.new_view() {
                 Some(view) => words.get(view.name()),
                 None => return,

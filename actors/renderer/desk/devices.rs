@@ -56,6 +56,7 @@ impl Desk<'_> {
     /// Another device may be set. One that is not there lets a while pass, so it is asked only when
     /// nothing more is set.
     pub(super) fn change_stylus(&mut self) {
+        self.speed_stylus();
         let haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
         // A game that goes on keeps the device that it has.
         if std::mem::replace(&mut self.haptic, haptic) != haptic && !self.lobby.has_game() {
@@ -63,10 +64,22 @@ impl Desk<'_> {
         }
     }
 
-    /// No stylus is heard any more until another servo has its device; what it held is let go.
-    pub(super) fn drop_stylus(&mut self) {
-        self.stylus = None;
+    /// Its pointer moves as far as is set. Not while a scale is pulled: a stylus that pulls that of
+    /// its own speed would run away from itself.
+    fn speed_stylus(&mut self) {
+        let factor = self.lobby.menu().map_or(1.0, |menu| menu.settings.stylus_factor());
+        self.stylus_mouse.set_faster(factor);
+    }
+
+    /// The device is free for a game; whoever looks for it is waited for.
+    pub(super) fn free_stylus(&mut self) {
         self.seeker.give_up();
+        self.drop_stylus();
+    }
+
+    /// No stylus is heard any more until another servo has its device; what it held is let go.
+    fn drop_stylus(&mut self) {
+        self.stylus = None;
         self.is_by_stylus = false;
         if let Some(lost) = self.stylus_mouse.let_go() {
             for order in self.lobby.hear_stylus(lost, DVec2::ZERO, None, None) {
@@ -82,8 +95,7 @@ impl Desk<'_> {
     pub(super) fn take_up_stylus(&mut self) {
         self.drop_stylus();
         self.haptic = self.lobby.menu().map(|menu| menu.settings.haptic);
-        let factor = self.lobby.menu().map_or(1.0, |menu| menu.settings.stylus_factor());
-        self.stylus_mouse.set_faster(factor);
+        self.speed_stylus();
         self.seek(false);
     }
 
@@ -149,7 +161,7 @@ impl Desk<'_> {
     pub(super) fn hold_pointer(&mut self) {
         let is_free = |mode| matches!(mode, HumanMode::Paused | HumanMode::Choosing);
         let goes_on = self.game.as_mut().is_some_and(|game| !is_free(game.mode()));
-        let is_seen = goes_on || self.lobby.is_replaying();
+        let is_seen = (goes_on && self.lobby.has_game()) || self.lobby.is_replaying();
         let is_playing = self.is_focused && is_seen && !self.lobby.is_menu_open();
         if is_playing && !self.pointer.is_caught() {
             self.pointer.catch(&self.window);

@@ -44,6 +44,7 @@ impl Human {
         if self.paused || self.camera.is_free() || !matches!(self.stage, Stage::Aiming) {
             return;
         }
+        self.camera.set_out();
         self.raised_rad = aim.elevation_rad;
         self.change_aim(|held| *held = aim);
     }

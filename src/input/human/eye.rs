@@ -3,6 +3,8 @@
 use super::super::camera::Viewpoint;
 use super::super::{AimAid, HumanMode, HumanView, View, sight};
 use super::{Human, KeyStroke, Stage};
+use crate::events::Turn;
+use crate::ids::BallId;
 use crate::physics::Snapshot;
 use crate::table::Table;
 use crate::tick::Participant;
@@ -12,8 +14,14 @@ use std::sync::Arc;
 impl Human {
     /// Eyes without a hand, behind a cue ball that is about to be struck in this direction [rad],
     /// which they follow.
-    pub fn onlooker(table: Arc<Table>, seen: &Snapshot, azimuth_rad: f64) -> Self {
+    pub fn onlooker(
+        table: Arc<Table>,
+        seen: &Snapshot,
+        cue_ball: BallId,
+        azimuth_rad: f64,
+    ) -> Self {
         let mut eyes = Human::new(Vec::new(), table);
+        eyes.turn = Some(Arc::new(Turn { cue_ball, ..Turn::default() }));
         let _ = eyes.start(seen);
         (eyes.view, eyes.only_looks) = (View::Follow, true);
         eyes.aim.azimuth_rad = azimuth_rad;

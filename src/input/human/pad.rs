@@ -82,6 +82,8 @@ impl Human {
             return;
         }
         match (pulled, &mut self.key_stroke) {
+            // Whoever points at a pocket clicks.
+            (Pulled::Holds(_), None) if self.pointing.is_some() => {}
             (Pulled::Holds(share), None) if matches!(self.stage, Stage::Aiming) && 0.0 < share => {
                 self.press();
                 if matches!(self.stage, Stage::Stroking(_)) {

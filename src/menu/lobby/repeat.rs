@@ -41,12 +41,15 @@ impl Lobby {
 
     /// The step that a gamepad's stick or button holds in a menu.
     fn held_in_menu(&self) -> Option<Action> {
-        if !self.is_menu_open() {
+        let waits = self.menu.as_ref().is_some_and(|menu| menu.waits_for_key().is_some());
+        if !self.is_menu_open() || waits || self.shows_help {
             return None;
         }
+        // A keyboard repeats by itself, and what was pressed before the menu opened means nothing.
         let holds = |action: &Action| {
             let keys = self.controls.bindings().keys(*action);
-            keys.iter().any(|key| key.is_pad() && self.controls.holds(*key))
+            let is_held = keys.iter().any(|key| key.is_pad() && self.controls.holds(*key));
+            is_held && self.controls.has(*action)
         };
         self.pad.leans().or_else(|| STEPS.into_iter().find(holds))
     }

@@ -6,7 +6,7 @@ use crate::input::{Action, HandInput, HumanMode};
 
 /// Whether an action leads back from the film.
 pub(super) fn ends_replay(action: Action) -> bool {
-    matches!(action, Action::Pause | Action::Replay | Action::Quit)
+    matches!(action, Action::Pause | Action::Replay)
 }
 
 impl Lobby {
@@ -26,9 +26,9 @@ impl Lobby {
         let mut orders = self.leave_replay();
         if goes_on == Some(true) && self.game == Game::Running {
             self.is_resuming = true;
-            orders.extend(pause());
+            orders.push(Order::Tell(HandInput::Paused(false)));
         }
-        if self.game == Game::Over {
+        if goes_on.is_some() && self.game == Game::Over {
             self.open("over");
         }
         orders.extend(self.settle());
@@ -48,10 +48,17 @@ impl Lobby {
         if !self.has_film {
             return vec![Order::Say("no_replay")];
         }
-        let stands = self.game == Game::Over || self.mode == HumanMode::Paused;
+        // A game that was told to go on does so after the film.
+        let is_paused = self.mode == HumanMode::Paused && !self.is_resuming;
+        let goes_on = self.game == Game::Running && !is_paused;
         self.close();
-        self.replay = Some(!stands);
-        let mut orders = if stands { Vec::new() } else { pause().to_vec() };
+        self.replay = Some(goes_on);
+        let mut orders = Vec::new();
+        if goes_on {
+            // What is held in the game is let go: the film hears when it is.
+            let stands = [HandInput::FocusLost, HandInput::Paused(true)];
+            orders.extend(stands.map(Order::Tell));
+        }
         orders.push(Order::Replay(true));
         orders.extend(self.settle());
         orders
@@ -61,10 +68,4 @@ impl Lobby {
     pub(super) fn tells(&self, input: HandInput) -> Order {
         if self.replay.is_some() { Order::Onlook(input) } else { Order::Tell(input) }
     }
-}
-
-/// The key that lets time stand still, or go on.
-fn pause() -> [Order; 2] {
-    let action = Action::Pause;
-    [true, false].map(|down| Order::Tell(HandInput::Act { action, down }))
 }

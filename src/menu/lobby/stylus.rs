@@ -100,7 +100,7 @@ impl Lobby {
     pub(super) fn open_wheel(&mut self, place: DVec2) -> Vec<Order> {
         let page = self.wheel_page.clone().filter(|_| self.is_playing());
         self.wheel = page.map(|page| Wheel::open(page, place, self.window));
-        self.wheel.iter().map(|_| Order::Tell(HandInput::FocusLost)).collect()
+        self.wheel.iter().map(|_| self.tells(HandInput::FocusLost)).collect()
     }
 
     /// Closes it, and does what is meant.

@@ -9,7 +9,7 @@ use hapticbillard::input::{HandInput, HumanMode};
 use hapticbillard::scene::Scene;
 use std::sync::Arc;
 
-/// Straight pool with three balls, of which one lies before a pocket.
+/// Free play with three balls, of which one lies before a pocket.
 fn scene() -> Scene {
     let text = "[scene]\nname = \"Advice\"\n[physics]\nsolver = \"event-driven\"\n\
         [table]\npreset = \"pool-9ft\"\n[cue]\n[rules]\ngame = \"free-play\"\n\

@@ -4,6 +4,7 @@ use super::desk::{Desk, free_play};
 use glam::DVec3;
 use hapticbillard::ids::BallId;
 use hapticbillard::input::{CameraPose, HumanMode, Key, RawInput, View};
+use hapticbillard::renderer::Mount;
 
 fn desk() -> Desk {
     let mut desk = Desk::new(&free_play(&[(0, -0.4, 0.0), (1, 0.4, 0.0)]));
@@ -13,7 +14,7 @@ fn desk() -> Desk {
 
 /// The camera as a window shows it, with the ball that it rides.
 fn shown(desk: &Desk) -> CameraPose {
-    desk.view().carried(desk.table()).camera
+    Mount::default().carry(desk.view(), desk.table()).camera
 }
 
 fn go_to(desk: &mut Desk, view: View) {
@@ -93,6 +94,24 @@ fn the_way_from_view_to_view_begins_as_fast_as_the_eye_was() {
     }
     // Eyes that set out at up to 3 m/s leave at that; what is faster is slowed down.
     assert!(worst < 9.0, "a jump of {worst} m/s");
+
+    // One that is led by hand leaves as fast as it walks.
+    desk.key(Key::Letter('g'));
+    desk.tick(&[RawInput::Key { key: Key::Up, down: true }]);
+    desk.wait(300);
+    let before = shown(&desk).eye;
+    desk.wait(1);
+    let walks = (shown(&desk).eye - before) / 1e-3;
+    assert!((walks.length() - 1.2).abs() < 0.01, "{walks}");
+    let from = shown(&desk).eye;
+    desk.tick(&[RawInput::Key { key: Key::Letter('g'), down: true }]);
+    let leaves = (shown(&desk).eye - from) / 1e-3;
+    desk.wait(1);
+    let goes_on = (shown(&desk).eye - from) / 1e-3 - leaves;
+    assert!(
+        (leaves - walks).length() < 0.2 || (goes_on - walks).length() < 0.2,
+        "{walks} {leaves}"
+    );
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The last shot is seen again: who hears what meanwhile, and what is afterwards.
 
-use hapticbillard::input::{Action, Button, HandInput, HumanMode, HumanView, Key, RawInput};
+use hapticbillard::input::{
+    Action, Button, HandInput, HumanMode, HumanView, Key, PadInput, RawInput,
+};
 use hapticbillard::menu::{Lobby, Menu, Order, Pages, Settings};
 
 fn lobby() -> Lobby {
@@ -25,17 +27,19 @@ fn act(action: Action, down: bool) -> HandInput {
     HandInput::Act { action, down }
 }
 
-fn pauses() -> [Order; 2] {
-    [true, false].map(|down| Order::Tell(act(Action::Pause, down)))
+fn stands(paused: bool) -> Order {
+    Order::Tell(HandInput::Paused(paused))
 }
+
+const LET_GO: Order = Order::Tell(HandInput::FocusLost);
 
 const REPLAY: Key = Key::Letter('y');
 
 #[test]
 fn time_stands_still_while_the_shot_is_seen_and_goes_on_after_it() {
     let mut lobby = lobby();
-    let [down, up] = pauses();
-    assert_eq!(press(&mut lobby, REPLAY), [down, up, Order::Replay(true)]);
+    // What is held when it begins is let go in the game.
+    assert_eq!(press(&mut lobby, REPLAY), [LET_GO, stands(true), Order::Replay(true)]);
     assert!(lobby.is_replaying());
     // The pause that it needs opens no menu.
     assert!(lobby.see(&view(HumanMode::Paused)).is_empty() && !lobby.is_menu_open());
@@ -50,14 +54,36 @@ fn time_stands_still_while_the_shot_is_seen_and_goes_on_after_it() {
     assert_eq!(press(&mut lobby, Key::Letter('h')), [Order::Do(Action::FilmHold)]);
     // Escape leads back: the game goes on, and no menu opens on the way.
     let orders = press(&mut lobby, Key::Escape);
-    assert_eq!(orders[0], Order::Replay(false));
-    assert!(pauses().iter().all(|order| orders.contains(order)), "{orders:?}");
+    assert_eq!(orders[..2], [Order::Replay(false), stands(false)]);
     assert!(lobby.see(&view(HumanMode::Paused)).is_empty() && !lobby.is_menu_open());
     lobby.see(&view(HumanMode::Aiming));
     assert!(lobby.is_playing() && !lobby.is_replaying());
     // From here on a pause is a pause.
     lobby.see(&view(HumanMode::Paused));
     assert!(lobby.is_menu_open());
+}
+
+#[test]
+fn the_key_that_began_it_ends_it_and_a_pause_meant_at_its_end_is_one() {
+    let mut lobby = lobby();
+    press(&mut lobby, REPLAY);
+    lobby.see(&view(HumanMode::Paused));
+    assert_eq!(press(&mut lobby, REPLAY)[..2], [Order::Replay(false), stands(false)]);
+    // The game has not gone on yet when somebody stops it: that is meant, and a menu opens.
+    press(&mut lobby, Key::Escape);
+    lobby.see(&view(HumanMode::Paused));
+    assert!(lobby.is_menu_open());
+    // A game that was told to go on goes on after a film that was wanted at once.
+    let mut lobby = self::lobby();
+    lobby.see(&view(HumanMode::Paused));
+    press(&mut lobby, Key::Enter);
+    assert_eq!(press(&mut lobby, REPLAY), [LET_GO, stands(true), Order::Replay(true)]);
+    assert!(lobby.end_replay().contains(&stands(false)));
+    // Who has lost the gamepad meanwhile finds time standing still.
+    let mut lobby = self::lobby();
+    press(&mut lobby, REPLAY);
+    lobby.hear(RawInput::Pad(PadInput::Lost), None);
+    assert!(!lobby.end_replay().contains(&stands(false)));
 }
 
 #[test]
