@@ -8,8 +8,8 @@ mod draw_list;
 
 mod look;
 
-mod film;
-pub use film::{Film, Reel};
+mod reel;
+pub use reel::{Film, Reel};
 
 mod mount;
 

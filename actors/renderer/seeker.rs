@@ -24,7 +24,8 @@ pub struct Seeker {
 }
 
 impl Seeker {
-    /// Looks, as soon as nobody looks any more, and waits for nobody; `is_again`: for one that was lost.
+    /// Looks, as soon as nobody looks any more, and waits for nobody; `is_again`: for one that was
+    /// lost.
     pub fn seek(&mut self, take_up: TakeUp, is_again: bool) {
         (self.lost, self.is_again) = (None, is_again);
         self.next = Some(take_up);

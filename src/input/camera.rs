@@ -114,7 +114,8 @@ pub(super) struct Camera {
     from: CameraPose,
     set_out: DVec3,
     left: u64,
-    /// Where it was a tick ago.
+    /// Where it was a tick ago, and a tick before that.
+    last: CameraPose,
     before: CameraPose,
     /// It is led by hand.
     free: Option<Free>,
@@ -135,6 +136,7 @@ impl Camera {
             from: pose,
             set_out: DVec3::ZERO,
             left: 0,
+            last: pose,
             before: pose,
             free: None,
             half_bed: bed.map_or(DVec2::ONE, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m)),
@@ -154,7 +156,7 @@ impl Camera {
     /// Leaves from where it is, as fast as it is.
     pub fn set_out(&mut self) {
         self.from = self.pose();
-        let speed = (self.from.eye - self.before.eye) / TICK_S;
+        let speed = (self.last.eye - self.before.eye) / TICK_S;
         self.set_out = speed.clamp_length_max(SET_OUT_M_S);
         self.left = CAMERA_TICKS;
     }
@@ -213,7 +215,7 @@ impl Camera {
 
     /// A tick passes.
     pub fn step(&mut self) {
-        self.before = self.pose();
+        (self.before, self.last) = (self.last, self.pose());
         self.left = self.left.saturating_sub(1);
     }
 

@@ -387,7 +387,7 @@ impl Lobby {
             _ if is_for_hand(action) => {
                 let down = edge == Edge::Pressed;
                 // Whoever stops time means it, whatever was told before.
-                self.is_resuming &= action != Action::Pause;
+                self.is_resuming &= !(down && action == Action::Pause);
                 vec![self.tells(HandInput::Act { action, down })]
             }
             (_, Edge::Pressed) => vec![Order::Do(action)],

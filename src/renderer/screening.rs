@@ -1,6 +1,6 @@
 //! A shot is seen again: which moment, how fast, and from where.
 
-use super::film::Film;
+use super::reel::Film;
 use crate::input::{Action, HandInput, Human, HumanView};
 use crate::physics::Snapshot;
 use crate::table::Table;
