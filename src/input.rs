@@ -47,7 +47,7 @@ mod held;
 mod camera;
 
 mod sight;
-pub(crate) use sight::ghost as first_met;
+pub use sight::ghost as first_met;
 
 mod placing;
 

@@ -6,11 +6,17 @@
 
 mod draw_list;
 
+mod lamps;
+
 mod look;
 
 mod playhead;
 
 mod shape;
+
+mod stereo;
+
+mod vectors;
 
 mod scoreboard;
 
@@ -27,6 +33,8 @@ mod felt_aim;
 
 mod felt_eye;
 
+mod film;
+
 mod overlay;
 
 mod thoughts;
@@ -39,7 +47,11 @@ pub use draw_list::{
 pub use felt::{FeltLook, FeltTool, force_colour};
 pub use felt_aim::aimed_by_stylus;
 pub use felt_eye::FeltEye;
+pub use film::{FilmClock, y4m_frame, y4m_head};
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
+pub use lamps::{
+    Corner, LAMP_APART_M, LAMP_HEIGHT_M, LAMPS, ROD_SHADOW_TRIANGLES, rod_shadow,
+};
 pub use look::{BallLook, BallSet, ball_look};
 pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
 pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spread};
@@ -47,6 +59,8 @@ pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
+pub use stereo::eyes;
 pub use thoughts::{LegendRow, ThoughtRow, ThoughtsPanel, draw_thoughts};
+pub use vectors::draw_vectors;
 pub use wheel_panel::{WheelItem, WheelPanel};
 pub use words::{HelpOf, Words};

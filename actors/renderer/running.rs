@@ -16,8 +16,10 @@ use hapticbillard::input::{
     Bindings, HandInput, HumanMode, HumanView, Rumble, StylusMouse, StylusSays,
 };
 use hapticbillard::physics::Snapshot;
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{
     DrawList, HelpOf, Hud, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+    draw_vectors,
 };
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
@@ -89,6 +91,8 @@ pub struct Running {
     pub shows_thoughts: bool,
     /// What is measured.
     pub meters: MetersScreen,
+    /// How its pictures are drawn.
+    pub picture: PictureSettings,
     /// The hardest contact since somebody took it, for a gamepad.
     pub shake: Option<Rumble>,
     view: triple_buffer::Output<HumanView>,
@@ -131,12 +135,14 @@ impl Running {
         let ports = Ports { raw, view: view_in, world: world_in, sink, meters: measured };
         let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
-            stage: Stage::new(context, &setup.table),
+            stage: Stage::new(context, &setup.table)
+                .map_err(|error| RunError::Start(format!("OpenGL: {error}")))?,
             outbox: Outbox::new(raw_in),
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
             shows_thoughts: false,
             meters: MetersScreen::new(meters),
+            picture: PictureSettings::default(),
             shake: None,
             view,
             world,
@@ -230,13 +236,21 @@ impl Running {
     }
 
     fn drawn(&mut self, view: &HumanView, now_s: f64) -> (DrawList, Hud) {
+        self.radii.mark(self.picture.marks);
         let (world, radii) = (self.playhead.shown(now_s), &self.radii);
         let Some(felt) = &mut self.felt else {
             let written = Hud::new(&self.board, view, &self.texts, &self.words);
-            return (DrawList::new(&world, view, radii), written);
+            let mut list = DrawList::new(&world, view, radii);
+            if self.picture.vectors {
+                draw_vectors(&world, radii, &mut list);
+            }
+            return (list, written);
         };
         let view = felt.view(view, &world, &self.table, radii, now_s);
         let mut list = DrawList::new(&world, &view, radii);
+        if self.picture.vectors {
+            draw_vectors(&world, radii, &mut list);
+        }
         felt.draw(&mut list);
         let written = Hud::new(&self.board, &view, &self.texts, &self.words);
         (list, felt.write(written, &view, &self.words))
