@@ -49,9 +49,7 @@ pub use felt_aim::aimed_by_stylus;
 pub use felt_eye::FeltEye;
 pub use film::{FilmClock, y4m_frame, y4m_head};
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
-pub use lamps::{
-    Corner, LAMP_APART_M, LAMP_HEIGHT_M, LAMPS, ROD_SHADOW_TRIANGLES, rod_shadow,
-};
+pub use lamps::{Corner, LAMP_APART_M, LAMP_HEIGHT_M, LAMPS, ROD_SHADOW_TRIANGLES, rod_shadow};
 pub use look::{BallLook, BallSet, ball_look};
 pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
 pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spread};

@@ -16,7 +16,9 @@ const LEVELS: [u32; 3] = [2, 3, 4];
 /// How far shadows float above the cloth [m]: above the marks on it.
 const SHADOW_LIFT_M: f32 = 0.0011;
 /// Half the side of a shadow's square, in radii.
-const SHADOW_REACH: f32 = 5.0;
+const SHADOW_REACH: f32 = 4.4;
+/// How far pockets reach into the bed [m].
+const POCKET_M: f32 = 0.09;
 /// The same for each metre that a ball is above the cloth: lamps stand low over far ends.
 const SHADOW_REACH_PER_M: f32 = 2.0;
 /// A ball that is higher throws no shadow that is worth drawing [radii].
@@ -105,7 +107,8 @@ pub struct Balls {
     scratches: Option<Texture2D>,
     programs: BTreeMap<Variant, Program>,
     placed: Program,
-    contact: Program,
+    /// Shadows amid the cloth, and at cushions and pockets.
+    contacts: [Program; 2],
     groups: [Group; LEVELS.len()],
     /// All of them, for whatever looks at all.
     all: Group,
@@ -124,6 +127,8 @@ impl Balls {
             indices: vec![0, 1, 2, 0, 2, 3],
             ..Shape::default()
         };
+        let contact =
+            |at_edge| program(context, CONTACT_PLACE, &[("AT_EDGE", at_edge)], &[HIDDEN, CONTACT]);
         Ok(Balls {
             context: context.clone(),
             meshes: LEVELS.map(|level| Sphere::new(context, &sphere(level))),
@@ -132,7 +137,7 @@ impl Balls {
             scratches: None,
             programs: BTreeMap::new(),
             placed: program(context, BALL_PLACE, &[], &[NOTHING])?,
-            contact: program(context, CONTACT_PLACE, &[], &[HIDDEN, CONTACT])?,
+            contacts: [contact(0)?, contact(1)?],
             groups: Default::default(),
             all: Group::default(),
             buffers: Buffers::new(context),
@@ -271,28 +276,37 @@ impl Balls {
     ) {
         let solid = list.balls.iter().map(|ball| (ball.position, ball.radius_m, 1.0));
         let ghosts = list.ghosts.iter().map(|ghost| (ghost.position, ghost.radius_m, GHOST_SHADOW));
-        let (mut places, mut squares) = (Vec::new(), Vec::new());
+        let mut groups: [(Vec<Vec4>, Vec<Vec3>); 2] = Default::default();
         for ([x, y, z], radius_m, depth) in solid.chain(ghosts) {
             // One on its way down a pocket throws none.
             if (0.5 * radius_m..SHADOW_HEIGHT * radius_m).contains(&z) {
                 let above_m = (z - radius_m).max(0.0);
                 let reach_m = SHADOW_REACH * radius_m + SHADOW_REACH_PER_M * above_m;
+                // Pockets are never farther from the cushions than a little more than their radius.
+                let reaches_edge = facts.bed.x > 0.0
+                    && (x.abs() + reach_m > facts.bed.x - POCKET_M
+                        || y.abs() + reach_m > facts.bed.y - POCKET_M);
+                let (places, squares) = &mut groups[usize::from(reaches_edge)];
                 places.push(vec4(x, y, z, radius_m));
                 squares.push(vec3(reach_m, SHADOW_LIFT_M, depth));
             }
         }
-        if places.is_empty() {
-            return;
+        for (program, (places, squares)) in self.contacts.iter().zip(&groups) {
+            if places.is_empty() {
+                continue;
+            }
+            self.places.fill(places);
+            self.squares.fill(squares);
+            facts.tell(program, camera);
+            if program.requires_uniform("pockets") {
+                program.use_uniform_array("pockets", pockets);
+            }
+            program.use_vertex_attribute("position", &self.square.corners);
+            program.use_instance_attribute("place", &self.places);
+            program.use_instance_attribute("square", &self.squares);
+            let (triangles, count) = (&self.square.triangles, places.len() as u32);
+            program.draw_elements_instanced(darkening(), camera.viewport(), triangles, count);
         }
-        self.places.fill(&places);
-        self.squares.fill(&squares);
-        facts.tell(&self.contact, camera);
-        self.contact.use_uniform_array("pockets", pockets);
-        self.contact.use_vertex_attribute("position", &self.square.corners);
-        self.contact.use_instance_attribute("place", &self.places);
-        self.contact.use_instance_attribute("square", &self.squares);
-        let (triangles, count) = (&self.square.triangles, places.len() as u32);
-        self.contact.draw_elements_instanced(darkening(), camera.viewport(), triangles, count);
     }
 }
 

@@ -235,7 +235,9 @@ impl Pen<'_> {
     }
 
     fn options(&self, options: &[String]) {
-        for (text, line) in options.iter().zip(option_lines(self.screen, self.largeness(), options.len())) {
+        for (text, line) in
+            options.iter().zip(option_lines(self.screen, self.largeness(), options.len()))
+        {
             self.panel(line.shrink(2.0 * self.unit));
             let at = line.left_center() + vec2(16.0 * self.unit, 0.0);
             self.text(at, Align2::LEFT_CENTER, text, 17.0, TEXT);

@@ -8,6 +8,8 @@ const SEEN: &str = include_str!("shaders/seen.glsl");
 const SURFACE: &str = include_str!("shaders/surface.frag");
 const PAINTED: &str = include_str!("shaders/painted.frag");
 const PLAIN: &str = include_str!("shaders/plain.frag");
+const PLAN: &str = include_str!("shaders/plan.frag");
+const PLAN_FLOOR: &str = include_str!("shaders/plan_floor.frag");
 const NOTHING: &str = include_str!("shaders/nothing.frag");
 
 /// The text that all shaders of a picture begin with.
@@ -28,8 +30,7 @@ pub fn program(
     set: &[(&str, u32)],
     fragment: &[&str],
 ) -> Result<Program, CoreError> {
-    let set: String =
-        set.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
+    let set: String = set.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
     let fragment = format!("{set}{}{}", light(), fragment.concat());
     Program::from_source(context, &format!("{set}{vertex}"), &fragment)
 }
@@ -64,6 +65,10 @@ pub struct Finish {
 pub enum Shader {
     /// A part of table or room, of this kind.
     Surface(u16, Finish),
+    /// A part of a table from the picture of it from above.
+    Plan,
+    /// The floor about it.
+    PlanFloor,
     /// Coloured vertices.
     Painted,
     /// Lines and see-through balls.
@@ -81,6 +86,8 @@ impl Shader {
             Shader::Painted => 3,
             Shader::Plain => 4,
             Shader::Over => 5,
+            Shader::Plan => 6,
+            Shader::PlanFloor => 7,
             Shader::Surface(kind, Finish { shadows, has_detail }) => {
                 0x100 + kind + 0x20 * u16::from(shadows) + 0x80 * u16::from(has_detail)
             }
@@ -91,6 +98,8 @@ impl Shader {
         let light = light();
         match self {
             Shader::Depth => NOTHING.into(),
+            Shader::Plan => PLAN.into(),
+            Shader::PlanFloor => PLAN_FLOOR.into(),
             Shader::Painted => format!("{light}{PAINTED}"),
             Shader::Plain | Shader::Over => format!("{light}{PLAIN}"),
             Shader::Surface(kind, Finish { shadows, has_detail }) => {
@@ -105,7 +114,7 @@ impl Shader {
 
     fn states(self) -> RenderStates {
         match self {
-            Shader::Surface(..) | Shader::Painted => {
+            Shader::Surface(..) | Shader::Plan | Shader::PlanFloor | Shader::Painted => {
                 RenderStates { cull: Cull::Back, ..RenderStates::default() }
             }
             Shader::Depth => RenderStates {
@@ -155,7 +164,11 @@ impl Material for Told<'_> {
     fn material_type(&self) -> MaterialType {
         match self.shader {
             Shader::Plain | Shader::Over => MaterialType::Transparent,
-            Shader::Surface(..) | Shader::Painted | Shader::Depth => MaterialType::Opaque,
+            Shader::Surface(..)
+            | Shader::Plan
+            | Shader::PlanFloor
+            | Shader::Painted
+            | Shader::Depth => MaterialType::Opaque,
         }
     }
 }

@@ -8,8 +8,8 @@ use three_d::*;
 const GROUND_M: f32 = 8.0;
 
 /// What the cloth's shader paints: the line across with the D behind it, and six spots, of which
-/// some may be the same.
-pub fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
+/// so many count.
+pub fn marks(marks: &ClothMarks) -> (Vec2, ([Vec2; 6], i32)) {
     let first = marks.spots.first().copied().unwrap_or_default().as_vec2();
     let mut spots = [vec2(first.x, first.y); 6];
     for (place, spot) in spots.iter_mut().zip(&marks.spots) {
@@ -18,7 +18,8 @@ pub fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
     let d_radius_m = marks.d_radius_m.unwrap_or(0.0);
     // No line is one that lies beyond every table.
     let line_x_m = marks.line_x_m.unwrap_or(-1e3);
-    (vec2(line_x_m as f32, d_radius_m as f32), spots)
+    let count = marks.spots.len().min(spots.len()) as i32;
+    (vec2(line_x_m as f32, d_radius_m as f32), (spots, count))
 }
 
 /// From a body along +x to one at `at` along a unit vector, longer and wider by these factors.

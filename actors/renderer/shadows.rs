@@ -17,24 +17,35 @@ const MAP_RANGE_M: (f32, f32) = (0.35, 0.15);
 /// Corners of the circle that a ball is to a lamp.
 const CORNERS: u32 = 24;
 
-/// A lamp as an eye: its picture is the cloth's plane, straightened.
-struct LampEye {
+/// An eye that looks straight down: its picture is the cloth's plane, straightened.
+pub struct DownEye {
     at: Vec3,
     projection: Mat4,
+    size: (u32, u32),
+    range_m: (f32, f32),
 }
 
-impl LampEye {
-    fn new(at: Vec3, frame: Vec2) -> Self {
-        let near = at.z - MAP_RANGE_M.0;
+impl DownEye {
+    /// A lamp that sees so much of the cloth's plane.
+    fn of_lamp(at: Vec3, frame: Vec2) -> Self {
+        let (near, far) = (at.z - MAP_RANGE_M.0, at.z + MAP_RANGE_M.1);
         let scale = near / at.z;
         let [left, right] = [-frame.x - at.x, frame.x - at.x].map(|x| x * scale);
         let [bottom, top] = [-frame.y - at.y, frame.y - at.y].map(|y| y * scale);
-        let far = at.z + MAP_RANGE_M.1;
-        LampEye { at, projection: frustum(left, right, bottom, top, near, far) }
+        let projection = frustum(left, right, bottom, top, near, far);
+        DownEye { at, projection, size: MAP, range_m: (near, far) }
+    }
+
+    /// One from far above, to which the height of things makes no difference.
+    pub fn from_above(frame: Vec2, size: (u32, u32)) -> Self {
+        const HEIGHT_M: f32 = 4.0;
+        let range_m = (HEIGHT_M - 1.0, HEIGHT_M + 2.0);
+        let projection = ortho(-frame.x, frame.x, -frame.y, frame.y, range_m.0, range_m.1);
+        DownEye { at: vec3(0.0, 0.0, HEIGHT_M), projection, size, range_m }
     }
 }
 
-impl Viewer for LampEye {
+impl Viewer for DownEye {
     fn position(&self) -> Vec3 {
         self.at
     }
@@ -45,13 +56,13 @@ impl Viewer for LampEye {
         self.projection
     }
     fn viewport(&self) -> Viewport {
-        Viewport::new_at_origo(MAP.0, MAP.1)
+        Viewport::new_at_origo(self.size.0, self.size.1)
     }
     fn z_near(&self) -> f32 {
-        self.at.z - MAP_RANGE_M.0
+        self.range_m.0
     }
     fn z_far(&self) -> f32 {
-        self.at.z + MAP_RANGE_M.1
+        self.range_m.1
     }
     fn color_mapping(&self) -> ColorMapping {
         ColorMapping::None
@@ -79,7 +90,7 @@ impl Maps {
     /// Every lamp looks at balls and cue.
     pub fn draw(&self, balls: &Balls, cue: Option<&Mesh>, facts: Facts) -> Result<(), CoreError> {
         for (layer, at) in lamps().into_iter().enumerate() {
-            let eye = LampEye::new(at, self.frame);
+            let eye = DownEye::of_lamp(at, self.frame);
             let target = self.depth.as_depth_target(layer as u32);
             target.clear(ClearState::depth(1.0)).write::<CoreError>(|| {
                 balls.draw_depth(eye.projection() * eye.view(), eye.viewport());
@@ -157,20 +168,14 @@ impl Volumes {
             balls.draw_depth(view_projection, camera.viewport());
             self.count_balls(balls, lowest, camera, view_projection);
             if let Some(cue) = cue {
-                self.count_rod(cue, camera, view_projection);
+                self.count_rod(cue, lowest, camera, view_projection);
             }
             Ok(())
         })?;
         Ok(())
     }
 
-    fn count_balls(
-        &self,
-        balls: &Balls,
-        lowest: f32,
-        camera: &Camera,
-        view_projection: Mat4,
-    ) {
+    fn count_balls(&self, balls: &Balls, lowest: f32, camera: &Camera, view_projection: Mat4) {
         let of = |(number, at): (usize, Vec3)| {
             balls.places().iter().map(move |place| (*place, at.extend(number as f32)))
         };
@@ -187,22 +192,15 @@ impl Volumes {
         self.balls.use_instance_attribute("place", &place);
         self.balls.use_instance_attribute("source", &source);
         let count = places.len() as u32;
-        self.balls.draw_elements_instanced(
-            counting(),
-            camera.viewport(),
-            &self.triangles,
-            count,
-        );
+        self.balls.draw_elements_instanced(counting(), camera.viewport(), &self.triangles, count);
     }
 
-    fn count_rod(&self, cue: &CuePose, camera: &Camera, view_projection: Mat4) {
+    fn count_rod(&self, cue: &CuePose, lowest: f32, camera: &Camera, view_projection: Mat4) {
         let butt = (cue.tip - cue.direction * CUE_LENGTH_M).as_vec3().to_array();
-        let ends = [
-            (cue.tip.as_vec3().to_array(), TIP_RADIUS_M as f32),
-            (butt, BUTT_RADIUS_M as f32),
-        ];
+        let ends =
+            [(cue.tip.as_vec3().to_array(), TIP_RADIUS_M as f32), (butt, BUTT_RADIUS_M as f32)];
         for (number, lamp) in LAMPS.into_iter().enumerate() {
-            let Some(corners) = rod_shadow(lamp, ends) else { continue };
+            let Some(corners) = rod_shadow(lamp, ends, lowest) else { continue };
             let corners = corners.map(Vec3::from);
             let buffer = VertexBuffer::new_with_data(&self.context, &corners);
             self.rod.use_uniform("view_projection", view_projection);

@@ -5,7 +5,7 @@
 use super::balls::{Balls, shadow_number};
 use super::materials::{Facts, Finish, Shader, Told, program};
 use super::meshes::{ground, laid, marks, part_mesh, shape_mesh, square};
-use super::shadows::{Maps, Volumes};
+use super::shadows::{DownEye, Maps, Volumes};
 use super::textures;
 use hapticbillard::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose, TIP_RADIUS_M};
 use hapticbillard::input::CameraPose;
@@ -24,6 +24,14 @@ const GHOST_LEVEL: u32 = 3;
 const CUE_SHADOW_M: f32 = 0.3;
 /// How far the shadow of a cue floats above the cloth [m].
 const CUE_SHADOW_LIFT_M: f32 = 0.0011;
+
+/// Size of the picture of a table from above [pixels], and how far it reaches beyond the table [m].
+const PLAN: (u32, u32) = (2048, 1024);
+const PLAN_MARGIN_M: f32 = 0.02;
+/// The numbers of some surfaces.
+const APRON: u16 = 3;
+const POCKET: u16 = 5;
+const FLOOR: u16 = 8;
 
 /// Height under which the balls on a table darken nothing [m].
 const UNDER_CLOTH_M: f32 = -0.12;
@@ -49,9 +57,10 @@ pub struct Stage {
     facts: Facts,
     outer: Vec2,
     line_and_d: Vec2,
-    spots: [Vec2; 6],
+    spots: ([Vec2; 6], i32),
     pockets: [Vec3; 6],
-    /// Made when they are first wanted.
+    /// Made when they are first wanted: the table from above, and what shadows need.
+    plan: Option<Texture2D>,
     maps: Option<Maps>,
     volumes: Option<Volumes>,
 }
@@ -85,11 +94,12 @@ impl Stage {
             vec2(0.5 * bed.length_m as f32, 0.5 * bed.width_m as f32)
         });
         let (line_and_d, spots) = table.parameters.as_ref().map_or_else(
-            || (vec2(0.0, 0.0), [vec2(0.0, 0.0); 6]),
+            || (vec2(0.0, 0.0), ([vec2(0.0, 0.0); 6], 0)),
             |parameters| marks(&parameters.cloth_marks()),
         );
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
-            .map(|[x, y]| vec3(x, y, 0.0));
+        let corners =
+            [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
+                .map(|[x, y]| vec3(x, y, 0.0));
         let (place, shade) =
             (include_str!("shaders/cue_shadow.vert"), include_str!("shaders/cue_shadow.frag"));
         Ok(Stage {
@@ -110,6 +120,7 @@ impl Stage {
             spots,
             outer: bed + vec2(0.2, 0.2),
             pockets,
+            plan: None,
             maps: None,
             volumes: None,
             context: context.clone(),
@@ -128,12 +139,15 @@ impl Stage {
         viewport: Viewport,
     ) -> Result<Camera, CoreError> {
         let camera = camera(&list.camera, viewport);
-        let pixels_per_rad = viewport.height as f32
-            / (2.0 * (0.5 * list.camera.field_of_view_rad as f32).tan());
+        let pixels_per_rad =
+            viewport.height as f32 / (2.0 * (0.5 * list.camera.field_of_view_rad as f32).tan());
         self.balls.take(list, settings, pixels_per_rad)?;
         if let Some(cue) = &list.cue {
             let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
             self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
+        }
+        if self.is_plain(settings) && self.plan.is_none() {
+            self.plan = Some(self.seen_from_above()?);
         }
         let cue = list.cue.as_ref().map(|_| &self.cue);
         match settings.shadows {
@@ -161,6 +175,9 @@ impl Stage {
 
     /// Draws a picture that is prepared into whatever is the target now.
     pub fn draw(&mut self, list: &DrawList, settings: &PictureSettings, camera: &Camera) {
+        if let Some(stylus) = &list.stylus {
+            self.stylus(stylus, camera);
+        }
         let (maps, volumes, viewport) = (&self.maps, &self.volumes, camera.viewport());
         let shadows = settings.shadows;
         let tell_shadows = |program: &Program| match (shadows, maps, volumes) {
@@ -173,34 +190,33 @@ impl Stage {
         if list.cue.is_some() {
             self.render(&self.cue, Shader::Painted, &|_| {}, camera);
         }
-        if let Some(stylus) = &list.stylus {
-            self.stylus(stylus, camera);
-        }
         let finish = Finish {
             // Soft shadows lie on the cloth and are not in it.
             shadows: if shadows == Shadows::Soft { 0 } else { shadow_number(shadows) },
             has_detail: settings.cloth_detail,
         };
-        let (maps, volumes) = (&self.maps, &self.volumes);
-        for (kind, mesh) in &self.parts {
-            let grain = if *kind < 2 { &self.nap } else { &self.wood };
-            let (outer, line_and_d, spots) = (self.outer, self.line_and_d, &self.spots);
+        if let Some(plan) = self.plan.as_ref().filter(|_| self.is_plain(settings)) {
+            let (frame, outer) = (self.plan_frame(), self.outer);
             let tell = |program: &Program| {
-                if program.requires_uniform("grain") {
-                    program.use_texture("grain", grain);
-                }
                 program.use_uniform_if_required("outer", outer);
-                program.use_uniform_if_required("line_and_d", line_and_d);
-                if program.requires_uniform("spots") {
-                    program.use_uniform_array("spots", spots);
-                }
-                match (shadows, maps, volumes) {
-                    (Shadows::Maps, Some(maps), _) => maps.tell(program),
-                    (Shadows::Volumes, _, Some(volumes)) => volumes.tell(program, viewport),
-                    _ => {}
+                program.use_uniform_if_required("plan_frame", frame);
+                if program.requires_uniform("plan") {
+                    program.use_texture("plan", plan);
                 }
             };
-            self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
+            for (kind, mesh) in &self.parts {
+                match *kind {
+                    FLOOR => self.render(mesh, Shader::PlanFloor, &tell, camera),
+                    // They are under what is seen from above.
+                    APRON | POCKET => {
+                        let tell = self.told(*kind, &tell_shadows);
+                        self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
+                    }
+                    _ => self.render(mesh, Shader::Plan, &tell, camera),
+                }
+            }
+        } else {
+            self.parts(finish, camera, &tell_shadows);
         }
         if shadows == Shadows::Soft {
             self.balls.draw_contacts(list, camera, &self.facts, &self.pockets);
@@ -219,7 +235,68 @@ impl Stage {
         }
     }
 
-    fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &Camera) {
+    /// Draws table and room, every pixel in its light.
+    fn parts(&self, finish: Finish, camera: &dyn Viewer, tell_shadows: &dyn Fn(&Program)) {
+        for (kind, mesh) in &self.parts {
+            let tell = self.told(*kind, tell_shadows);
+            self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
+        }
+    }
+
+    /// Tells the shader of a surface what there is on it.
+    fn told<'a>(&'a self, kind: u16, tell_shadows: &'a dyn Fn(&Program)) -> impl Fn(&Program) + 'a {
+        let grain = if kind < 2 { &self.nap } else { &self.wood };
+        move |program: &Program| {
+            if program.requires_uniform("grain") {
+                program.use_texture("grain", grain);
+            }
+            program.use_uniform_if_required("outer", self.outer);
+            program.use_uniform_if_required("line_and_d", self.line_and_d);
+            if program.requires_uniform("spots") {
+                program.use_uniform_array("spots", &self.spots.0);
+            }
+            program.use_uniform_if_required("spot_count", self.spots.1);
+            tell_shadows(program);
+        }
+    }
+
+    /// Whether the table is drawn from one picture of itself.
+    fn is_plain(&self, settings: &PictureSettings) -> bool {
+        self.facts.bed.x > 0.0 && settings.is_table_plain()
+    }
+
+    /// Half the length and width of what is in that picture [m].
+    fn plan_frame(&self) -> Vec2 {
+        self.outer + vec2(PLAN_MARGIN_M, PLAN_MARGIN_M)
+    }
+
+    /// The table from above.
+    fn seen_from_above(&self) -> Result<Texture2D, CoreError> {
+        let (edge, soft) = (Wrapping::ClampToEdge, Interpolation::Linear);
+        let (width, height) = PLAN;
+        let colour = Texture2D::new_empty::<[u8; 4]>(
+            &self.context,
+            width,
+            height,
+            soft,
+            soft,
+            None,
+            edge,
+            edge,
+        );
+        let depth = DepthTexture2D::new::<f32>(&self.context, width, height, edge, edge);
+        let eye = DownEye::from_above(self.plan_frame(), PLAN);
+        let target = RenderTarget::new(colour.as_color_target(None), depth.as_depth_target());
+        let [r, g, b] = BACKGROUND;
+        target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0)).write::<CoreError>(|| {
+            self.parts(Finish { shadows: 0, has_detail: false }, &eye, &|_| {});
+            Ok(())
+        })?;
+        drop(target);
+        Ok(colour)
+    }
+
+    fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &dyn Viewer) {
         let material = Told { shader, tell, facts: self.facts };
         mesh.render_with_material(&material, camera, &[]);
     }

@@ -35,8 +35,7 @@ pub fn digits(context: &Context, side: u32) -> Texture2DArray {
     Texture2DArray::new(context, &layers.iter().collect::<Vec<_>>())
 }
 
-/// One number in the middle of a square of this side, rows from the bottom, as textures have them;
-/// 6 and 9 are underlined.
+/// One number in the middle of a square of this side, rows from the top; 6 and 9 are underlined.
 pub fn number_layer(number: u16, side: u32) -> Vec<u8> {
     let wide = side as usize;
     let mut ink = vec![0.0f32; wide * wide];
@@ -78,7 +77,7 @@ pub fn number_layer(number: u16, side: u32) -> Vec<u8> {
             ink[y * wide + wide / 2 - half..y * wide + wide / 2 + half].fill(1.0);
         }
     }
-    ink.chunks(wide).rev().flatten().map(|ink| (ink * 255.0) as u8).collect()
+    ink.iter().map(|ink| (ink * 255.0) as u8).collect()
 }
 
 /// Fine scratches as slopes: red to the right, green up, nothing in the middle. Most are arcs, as

@@ -144,8 +144,7 @@ fn open(setup: &WindowSetup) -> Result<(EventLoop<GameEnded>, Window), NoWindow>
 
 /// OpenGL in the window. Smooth edges are drawn beside it, so that they can be switched.
 pub(super) fn graphics(window: &Window) -> Result<WindowedContext, NoWindow> {
-    let plain =
-        SurfaceSettings { vsync: false, multisamples: 0, ..SurfaceSettings::default() };
+    let plain = SurfaceSettings { vsync: false, multisamples: 0, ..SurfaceSettings::default() };
     WindowedContext::from_winit_window(window, plain)
         .map_err(|error| NoWindow(format!("no OpenGL: {error}")))
 }

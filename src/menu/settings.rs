@@ -375,8 +375,8 @@ impl Settings {
     /// # Errors
     /// One line: what is wrong, and where.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let read: Self = toml::from_str(text)
-            .map_err(|error| one_line(error.to_string().trim_end(), 400))?;
+        let read: Self =
+            toml::from_str(text).map_err(|error| one_line(error.to_string().trim_end(), 400))?;
         Ok(Settings { picture: read.picture.sound(), ..read })
     }
 

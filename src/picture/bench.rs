@@ -122,7 +122,11 @@ impl FrameTimes {
 }
 
 /// The tables in Markdown: each row with its frames per second beside those of 2009.
-pub fn bench_markdown(measured: &[(BenchRow, FrameTimes)], device: &str, size: (u32, u32)) -> String {
+pub fn bench_markdown(
+    measured: &[(BenchRow, FrameTimes)],
+    device: &str,
+    size: (u32, u32),
+) -> String {
     let mut text = format!("Device: {device}; {} x {} pixels.\n", size.0, size.1);
     let mut table = None;
     for (row, times) in measured {

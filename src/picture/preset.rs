@@ -50,10 +50,8 @@ impl Preset {
             ..settings
         };
         match self {
-            Preset::VeryLow => {
-                PictureSettings { shadows: Shadows::Off, render_scale: 60, ..cheap }
-            }
-            Preset::Low => PictureSettings { render_scale: 80, ..cheap },
+            Preset::VeryLow => PictureSettings { shadows: Shadows::Off, render_scale: 60, ..cheap },
+            Preset::Low => cheap,
             Preset::Medium => PictureSettings {
                 triangles: 1280,
                 texture: 256,

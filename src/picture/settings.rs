@@ -379,6 +379,12 @@ impl PictureSettings {
         Ok(())
     }
 
+    /// Whether a table may be drawn from one picture of itself from above: nothing on it is so fine
+    /// that it would be missed, and no shadow is a part of its surface.
+    pub fn is_table_plain(&self) -> bool {
+        !self.cloth_detail && matches!(self.shadows, Shadows::Off | Shadows::Soft)
+    }
+
     /// Size of what is drawn for a window of this size [pixels].
     pub fn drawn_size(&self, (width, height): (u32, u32)) -> (u32, u32) {
         let scale = u32::from(SCALES[self.place(PictureOption::RenderScale)]);

@@ -15,20 +15,23 @@ pub const LAMPS: [[f32; 3]; 3] = [
 /// A corner of the body of darkness behind a rod.
 pub type Corner = [f32; 3];
 
-/// How far shadows reach behind what throws them [m]: to the floor, wherever that is.
+/// How far shadows reach from a lamp [m].
 const REACH_M: f32 = 4.0;
 
 /// The body of darkness that a rod with round ends throws behind it: its outline as a lamp sees it,
-/// first near, then far from the lamp, in the same order. None if the lamp looks along the rod.
-pub fn rod_shadow(lamp: [f32; 3], ends: [([f32; 3], f32); 2]) -> Option<[Corner; 8]> {
+/// first near, then far from the lamp, in the same order; it ends at the height `lowest` [m]. None if
+/// the lamp looks along the rod.
+pub fn rod_shadow(lamp: [f32; 3], ends: [([f32; 3], f32); 2], lowest: f32) -> Option<[Corner; 8]> {
     use glam::Vec3;
     let lamp = Vec3::from(lamp);
     let [(a, a_radius), (b, b_radius)] = ends.map(|(at, radius)| (Vec3::from(at), radius));
     let side = (b - a).cross(0.5 * (a + b) - lamp).try_normalize()?;
-    // A little longer than from middle to middle of the ends would be right only for a flat end.
-    let near =
-        [a - side * a_radius, a + side * a_radius, b + side * b_radius, b - side * b_radius];
-    let far = near.map(|corner| lamp + (corner - lamp).normalize_or_zero() * REACH_M);
+    let near = [a - side * a_radius, a + side * a_radius, b + side * b_radius, b - side * b_radius];
+    let far = near.map(|corner| {
+        let way = (corner - lamp).normalize_or_zero();
+        let down_m = (lowest - lamp.z) / way.z.min(-0.01);
+        lamp + way * down_m.clamp(corner.distance(lamp), REACH_M)
+    });
     let all = [near[0], near[1], near[2], near[3], far[0], far[1], far[2], far[3]];
     Some(all.map(|corner| corner.to_array()))
 }

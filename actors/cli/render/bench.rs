@@ -40,6 +40,10 @@ pub struct BenchRenderArgs {
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = not_negative)]
     pub seconds: f64,
 
+    /// Measures only rows whose name has this in it, as in `medium` or `volumes`.
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+
     /// Writes the tables as Markdown into this file.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -54,7 +58,7 @@ pub struct BenchRenderArgs {
 pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
     use hapticbillard::events::FactSet;
     use hapticbillard::input::HumanView;
-    use hapticbillard::picture::{Environment, FrameTimes, bench_markdown, bench_rows};
+    use hapticbillard::picture::{BenchRow, Environment, FrameTimes, bench_markdown, bench_rows};
     use hapticbillard::renderer::{DrawList, Radii};
     use hapticbillard_actors::files::{load_scene, write_whole};
     use hapticbillard_actors::game::Stage;
@@ -74,7 +78,13 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
     }
     let mut studio = Studio::new(&stage.table)?;
     let device = studio.card();
-    let rows = bench_rows();
+    let only = args.only.as_deref().unwrap_or_default();
+    let rows: Vec<_> = bench_rows().into_iter().filter(|row| row.name().contains(only)).collect();
+    if rows.is_empty() {
+        let names: Vec<String> = bench_rows().iter().map(BenchRow::name).collect();
+        let problem = format!("no row has '{only}' in its name");
+        return Err(Error::input("--only", problem, format!("rows are {}", names.join("; "))));
+    }
     let mut times = vec![Vec::new(); rows.len()];
     let bar = progress(u64::from(args.rounds) * rows.len() as u64, "measuring");
     for _ in 0..args.rounds {

@@ -106,9 +106,8 @@ impl Desk<'_> {
         };
         let (gui, painter) = (&self.gui, &mut self.painter);
         let target = RenderTarget::screen(&self.graphics, size.width, size.height);
-        let drawn = painter
-            .prepare(stage, &list, &settings, (size.width, size.height))
-            .and_then(|ready| {
+        let drawn =
+            painter.prepare(stage, &list, &settings, (size.width, size.height)).and_then(|ready| {
                 let [r, g, b] = BACKGROUND;
                 target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
                 target.write::<CoreError>(|| {

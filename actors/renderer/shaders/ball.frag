@@ -33,7 +33,7 @@ vec3 scratched(vec3 own, float much) {
     vec2 z = texture(scratches, own.xy * 0.8 - shift).rg - 0.5;
     vec3 slope = vec3(0.0, x) * weight.x + vec3(y.y, 0.0, y.x) * weight.y
         + vec3(z, 0.0) * weight.z;
-    return normalize(own + slope * (0.55 * much));
+    return normalize(own + slope * (0.9 * much));
 }
 #endif
 
@@ -42,6 +42,12 @@ vec3 scratched(vec3 own, float much) {
 // d covers (R / d)^2 of the half sky, weighted by the cosine.
 vec4 left_by_balls(vec3 at, vec3 n) {
     vec4 left = vec4(1.0);
+#if SHADOWS == 1
+    vec3 ways[3];
+    for (int k = 0; k < 3; k++) {
+        ways[k] = normalize(lamp(k) - at);
+    }
+#endif
     for (int i = 0; i < ball_count; i++) {
         vec3 to = ball_places[i].xyz - at;
         float radius = ball_places[i].w;
@@ -53,8 +59,7 @@ vec4 left_by_balls(vec3 at, vec3 n) {
             * radius * radius / square;
 #if SHADOWS == 1
         for (int k = 0; k < 3; k++) {
-            vec3 way = normalize(lamp(k) - at);
-            left[k] *= 1.0 - hidden_by_ball(to, radius, way);
+            left[k] *= 1.0 - hidden_by_ball(to, radius, ways[k]);
         }
 #endif
     }
@@ -153,7 +158,7 @@ void main() {
     for (int i = 0; i < 3; i++) {
         towards[i] = dot(n, normalize(lamp(i) - pos));
     }
-    seen = mix(vec3(1.0), seen_of_lamps(pos, n), smoothstep(0.05, 0.35, towards));
+    seen = mix(vec3(1.0), seen_of_lamps(pos, n), smoothstep(0.12, 0.45, towards));
 #endif
     vec3 bounce = vec3(0.010, 0.12, 0.062) * max(-n.z, 0.0) * 0.8;
     vec3 light = albedo * (received(pos, n, seen) * open + bounce);

@@ -42,5 +42,6 @@ void main() {
     }
     float all = 0.92 * (of_lamps.x + of_lamps.y + of_lamps.z) + 0.055;
     float left = (0.92 * dot(of_lamps, seen) + 0.055) / all;
-    colour = vec4(vec3(pow(clamp(left, 0.0, 1.0), 1.0 / 2.2)), 1.0);
+    float root = sqrt(clamp(left, 0.0, 1.0));
+    colour = vec4(vec3(root * (1.22 - 0.22 * root)), 1.0);
 }

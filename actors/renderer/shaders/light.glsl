@@ -55,11 +55,10 @@ vec3 surroundings(vec3 at, vec3 way, float soft) {
     return mix(ROOM * 2.0, vec3(0.012, 0.16, 0.085), cloth);
 }
 
-// From light to screen: a gentle shoulder, then the gamma of screens, x^(1/2.2) within 0.004 of it
-// by square roots: processors that draw are several times faster at those.
+// From light to screen: a gentle shoulder, then the gamma of screens. The curve is
+// (l (1 + 0.16 l) / (1 + 0.62 l))^(1/2.2) with l = 1.35 times the light, within 0.005 of it by a
+// cubic of the root: processors that draw are several times faster at that.
 vec3 developed(vec3 light) {
-    light *= 1.35;
-    light = clamp(light * (1.0 + light * 0.16) / (1.0 + light * 0.62), 0.0, 1.0);
-    vec3 half_power = sqrt(light);
-    return 0.9774 * half_power + 0.0845 * sqrt(half_power) - 0.0619 * light;
+    vec3 root = min(sqrt(light), 1.0755);
+    return root * (1.44794 - root * (0.69956 - 0.20288 * root));
 }

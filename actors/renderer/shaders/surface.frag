@@ -9,23 +9,18 @@ uniform vec2 outer;
 // x of the line across the bed, and the radius of the D behind it; 0 without.
 uniform vec2 line_and_d;
 uniform vec2 spots[6];
+uniform int spot_count;
 layout (location = 0) out vec4 colour;
 
 #if KIND < 2
-// The nap of the cloth. From afar nobody sees it, and it costs nothing (paper, section 4.3.4).
+// The nap of the cloth. From afar it is not seen (paper, section 4.3.4).
 float nap(vec3 at) {
 #if DETAIL
-    float away = distance(at, eye);
-    float left = 1.0 - smoothstep(1.2, 3.2, away);
-    if (left > 0.0) {
-        vec2 place = uvs * 2.2;
-        float wide = texture(grain, place).r;
-        float fine = texture(grain, place * 5.7).r;
-        float near = 1.0 - smoothstep(0.25, 0.9, away);
-        return mix(0.5, mix(wide, fine, 0.6 * near), left);
-    }
-#endif
+    float left = 1.0 - smoothstep(1.2, 3.2, distance(at, eye));
+    return mix(0.5, texture(grain, uvs * 3.4).r, left);
+#else
     return 0.5;
+#endif
 }
 #endif
 
@@ -58,7 +53,7 @@ void main() {
     float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, off))
         * step(0.0, inside.y) * min(1.0, 0.0035 / wide);
     float square = 1e3;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < spot_count; ++i) {
         vec2 away = pos.xy - spots[i];
         square = min(square, dot(away, away));
     }
