@@ -18,6 +18,7 @@ use hapticbillard::input::{
     Action, AimAid, Button, Controller, HandInput, RawInput, Steering, StylusMouse,
 };
 use hapticbillard::menu::{HapticChoice, Lobby, Order};
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{DrawList, Hud, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
@@ -50,6 +51,8 @@ pub(super) struct Desk<'a> {
     ended: EventLoopProxy<GameEnded>,
     stop: StopFlag,
     system: Language,
+    /// How pictures are drawn without a menu.
+    picture: PictureSettings,
     lobby: Lobby,
     /// The language that everything is written in, and its words of the menus.
     spoken: Language,
@@ -112,6 +115,7 @@ impl<'a> Desk<'a> {
             ended,
             stop: setup.stop,
             system: setup.language,
+            picture: setup.picture,
             spoken: setup.language,
             words: Words::of_menus(setup.language).with_keys(&setup.keys.0),
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
@@ -362,6 +366,7 @@ impl<'a> Desk<'a> {
             // A window that is gone need not be told.
             let _ = ended.send_event(GameEnded);
         };
+        self.show_progress(0.1);
         let written = (language, self.lobby.bindings());
         let is_shaken = self.pads.is_some();
         let game = Running::begin(prepared, &self.graphics, written, is_shaken, tell)?;
@@ -369,15 +374,18 @@ impl<'a> Desk<'a> {
         (self.volume, self.aid, self.steering) = (None, None, None);
         self.lobby.began();
         self.apply();
+        self.warm_up();
         Ok(())
     }
 
     /// A table behind the main menu, if there is one and it is not there yet.
     fn set_up_backdrop(&mut self) -> Result<(), Error> {
         if self.backdrop.is_none() && self.lobby.menu().is_some() {
+            self.show_progress(0.1);
             let Backdrop { table, list } = self.host.backdrop()?;
             let stage = Stage::new(&self.graphics, &table).map_err(no_stage)?;
             self.backdrop = Some((list, stage));
+            self.warm_up();
         }
         Ok(())
     }

@@ -59,6 +59,19 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud, scale: f32) {
     }
 }
 
+/// Draws how much is ready [0 to 1] into the middle of a window.
+pub fn progress(painter: &Painter, text: &str, share: f32) {
+    let screen = painter.clip_rect();
+    let pen = Pen { painter, screen, unit: unit_of(screen) };
+    let size = vec2(260.0, 6.0) * pen.unit;
+    let bar = Rect::from_center_size(screen.center(), size);
+    painter.rect_filled(bar, 0.5 * size.y, Color32::from_gray(58));
+    let done = bar.with_max_x(bar.left() + share.clamp(0.0, 1.0) * size.x);
+    painter.rect_filled(done, 0.5 * size.y, ACTIVE);
+    let above = bar.center() - vec2(0.0, 22.0 * pen.unit);
+    pen.text(above, Align2::CENTER_CENTER, text, 17.0, TEXT);
+}
+
 /// Where the lines of options stand in a window of this size: all of one height, in the middle.
 fn option_lines(screen: Rect, scale: f32, count: usize) -> impl Iterator<Item = Rect> {
     let unit = unit_for(screen, scale);

@@ -3,8 +3,10 @@
 
 use super::materials::program;
 use super::stage::{BACKGROUND, Stage};
+use glam::DVec3;
+use hapticbillard::cue::CuePose;
 use hapticbillard::picture::PictureSettings;
-use hapticbillard::renderer::{DrawList, eyes};
+use hapticbillard::renderer::{DrawList, GhostBall, Line, eyes};
 use three_d::context::{HasContext, RENDERER};
 use three_d::*;
 
@@ -98,6 +100,30 @@ impl Painter {
             is_software: is_software(context),
             context: context.clone(),
         })
+    }
+
+    /// Draws a picture that nobody sees, with one of everything in it: so that no shader is compiled
+    /// and no texture computed in the middle of a game.
+    ///
+    /// # Errors
+    /// The graphics card's compiler does not take a shader, or it gives no room.
+    pub fn warm_up(
+        &self,
+        stage: &mut Stage,
+        list: &DrawList,
+        settings: &PictureSettings,
+    ) -> Result<(), CoreError> {
+        let near = list.camera.target.as_vec3().to_array();
+        let far = [near[0] + 0.1, near[1], near[2]];
+        let colour = [1.0; 4];
+        let mut list = list.clone();
+        let (tip, direction) = (list.camera.target, DVec3::X);
+        list.cue = Some(CuePose { tip, velocity: DVec3::ZERO, direction, solid: false });
+        list.lines.push(Line { from: near, to: far, half_width_m: 0.01, colour });
+        list.ghosts.push(GhostBall { position: near, radius_m: 0.03, colour });
+        let sight = Sight::new(&self.context, (64, 40), settings.smooth.is_on(self.is_software));
+        let camera = stage.prepare(&list, settings, Viewport::new_at_origo(64, 40))?;
+        sight.draw(|| stage.draw(&list, settings, &camera))
     }
 
     /// Draws everything that needs pictures of its own, for a window of this size [pixels].

@@ -10,6 +10,7 @@ use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::Bindings;
 use hapticbillard::menu::{Menu, Settings};
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::DrawList;
 use hapticbillard::rules::Language;
 use hapticbillard::table::Table;
@@ -34,6 +35,8 @@ pub struct WindowSetup {
     pub title: String,
     /// Size of the picture [pixels].
     pub size: (u32, u32),
+    /// How pictures are drawn where there are no menus to set it.
+    pub picture: PictureSettings,
     /// The language of the player's system.
     pub language: Language,
     /// Ends everything between two ticks.

@@ -26,7 +26,7 @@ pub fn rod_shadow(lamp: [f32; 3], ends: [([f32; 3], f32); 2], lowest: f32) -> Op
     let lamp = Vec3::from(lamp);
     let [(a, a_radius), (b, b_radius)] = ends.map(|(at, radius)| (Vec3::from(at), radius));
     let side = (b - a).cross(0.5 * (a + b) - lamp).try_normalize()?;
-    let near = [a - side * a_radius, a + side * a_radius, b + side * b_radius, b - side * b_radius];
+    let near = [a + side * a_radius, a - side * a_radius, b - side * b_radius, b + side * b_radius];
     let far = near.map(|corner| {
         let way = (corner - lamp).normalize_or_zero();
         let down_m = (lowest - lamp.z) / way.z.min(-0.01);

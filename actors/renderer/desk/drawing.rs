@@ -12,9 +12,48 @@ use std::time::Instant;
 use three_d::{ClearState, CoreError, RenderTarget, Viewport, egui};
 
 impl Desk<'_> {
-    /// How pictures are drawn; as shipped where there is no menu to set it.
+    /// How pictures are drawn.
     pub(super) fn picture_settings(&self) -> PictureSettings {
-        self.lobby.menu().map_or_else(PictureSettings::default, |menu| menu.settings.picture)
+        self.lobby.menu().map_or(self.picture, |menu| menu.settings.picture)
+    }
+
+    /// Gets everything ready that pictures of what is shown now need, and says meanwhile how far that
+    /// has come.
+    pub(super) fn warm_up(&mut self) {
+        self.show_progress(0.5);
+        let Some((list, _)) = self.seen() else { return };
+        let settings = self.picture_settings();
+        let stage = match (&mut self.game, &mut self.backdrop) {
+            (Some(game), _) => &mut game.stage,
+            (None, Some((_, stage))) => stage,
+            (None, None) => return,
+        };
+        // What is wrong is told with the first picture.
+        let _ = self.painter.warm_up(stage, &list, &settings);
+        self.show_progress(1.0);
+    }
+
+    /// Shows how much is ready [0 to 1], before there can be a picture.
+    pub(super) fn show_progress(&mut self, share: f32) {
+        let size = self.window.inner_size();
+        if size.width == 0 || size.height == 0 {
+            return;
+        }
+        let text = Words::new(self.spoken).get("preparing");
+        let viewport = Viewport::new_at_origo(size.width, size.height);
+        self.gui.update(&mut [], self.start.elapsed().as_secs_f64() * 1e3, viewport, 1.0, |ui| {
+            let layer = egui::LayerId::background();
+            hud::progress(&ui.ctx().layer_painter(layer), &text, share);
+        });
+        let gui = &self.gui;
+        let target = RenderTarget::screen(&self.graphics, size.width, size.height);
+        let [r, g, b] = BACKGROUND;
+        target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
+        // Nobody misses a bar; a window that shows nothing says so with the first picture.
+        if target.write::<CoreError>(|| gui.render()).is_ok() {
+            let _ = self.graphics.swap_buffers();
+        }
+        self.shown = None;
     }
 
     /// What is drawn and written now.
