@@ -8,7 +8,7 @@ CARGO := cargo
 # How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
 MINUTES ?= 10
 
-.PHONY: play test report window hour peers fuzz builds licences deb setup early featureless lints \
+.PHONY: play test report pictures window hour peers fuzz builds licences deb setup early featureless lints \
 	everything documents package
 
 play: setup
@@ -18,6 +18,11 @@ play: setup
 report:
 	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
 	  report --builds tests/report/builds.json --out tests/report
+
+# Pictures of what the renderer can do, without a window, into target/pictures.
+pictures: setup
+	$(CARGO) build --release --locked --package hapticbillard-actors
+	tests/pictures/run.sh target/release/hapticbillard target/pictures
 
 # A whole game with real mouse and key events, in real time on a virtual display.
 window: setup

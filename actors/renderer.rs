@@ -6,6 +6,8 @@
 
 mod advice;
 
+mod balls;
+
 mod desk;
 
 mod felt;
@@ -29,17 +31,23 @@ mod materials;
 
 mod menu;
 
+mod meshes;
+
 mod meters;
 
 mod offscreen;
 
 mod outbox;
 
+mod painter;
+
 mod pointer;
 
 mod running;
 
 mod seeker;
+
+mod shadows;
 
 mod stage;
 
@@ -51,11 +59,12 @@ mod window;
 
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
-pub use offscreen::{card, pixels, written};
+pub use offscreen::{Studio, card};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
 pub use window::{Backdrop, Host, NoWindow, TakeUp, WindowSetup, show};
 
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use image::codecs::png::PngEncoder;
@@ -74,13 +83,17 @@ pub fn png(
     table: &Table,
     list: &DrawList,
     hud: &Hud,
+    settings: &PictureSettings,
     size: (u32, u32),
 ) -> Result<Vec<u8>, NoPicture> {
-    encoded(&written(table, list, hud, size)?, size)
+    encoded(&Studio::new(table)?.written(list, hud, settings, size)?, size)
 }
 
 /// Pixels as a PNG file, rows from the top, without their opacity.
-fn encoded(rows: &[[u8; 4]], size: (u32, u32)) -> Result<Vec<u8>, NoPicture> {
+///
+/// # Errors
+/// [`NoPicture`] if there are not as many as the size says.
+pub fn encoded(rows: &[[u8; 4]], size: (u32, u32)) -> Result<Vec<u8>, NoPicture> {
     let bytes: Vec<u8> = rows.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
     let mut file = Vec::new();
     PngEncoder::new(&mut file)

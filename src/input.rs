@@ -48,7 +48,7 @@ mod camera;
 pub use camera::Room;
 
 mod sight;
-pub(crate) use sight::ghost as first_met;
+pub use sight::ghost as first_met;
 
 mod placing;
 

@@ -23,6 +23,8 @@ mod one_line;
 
 pub mod events;
 
+pub mod picture;
+
 pub mod table;
 
 pub mod rack;

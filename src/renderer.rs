@@ -6,6 +6,8 @@
 
 mod draw_list;
 
+mod lamps;
+
 mod look;
 
 mod reel;
@@ -19,6 +21,10 @@ mod screening;
 pub use screening::Screening;
 
 mod shape;
+
+mod stereo;
+
+mod vectors;
 
 mod scoreboard;
 
@@ -35,6 +41,8 @@ mod felt_aim;
 
 mod felt_eye;
 
+mod film;
+
 mod overlay;
 
 mod thoughts;
@@ -47,7 +55,9 @@ pub use draw_list::{
 pub use felt::{FeltLook, FeltTool, force_colour};
 pub use felt_aim::aimed_by_stylus;
 pub use felt_eye::FeltEye;
+pub use film::{FilmClock, y4m_frame, y4m_head};
 pub use hud::{Gauge, Hud, Remaining, SeatPanel, TipDial};
+pub use lamps::{Corner, LAMP_APART_M, LAMP_HEIGHT_M, LAMPS, ROD_SHADOW_TRIANGLES, rod_shadow};
 pub use look::{BallLook, BallSet, ball_look};
 pub use menu_panel::{Area, MenuLayout, MenuLine, MenuPanel, player_names};
 pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spread};
@@ -56,6 +66,8 @@ pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
+pub use stereo::eyes;
 pub use thoughts::{LegendRow, ThoughtRow, ThoughtsPanel, draw_thoughts};
+pub use vectors::draw_vectors;
 pub use wheel_panel::{WheelItem, WheelPanel};
 pub use words::{HelpOf, Words};

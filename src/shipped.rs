@@ -33,6 +33,8 @@ pub const MENUS: &[(&str, &str)] = &[
     ("main", include_str!("../config/menus/main.toml")),
     ("mode", include_str!("../config/menus/mode.toml")),
     ("options", include_str!("../config/menus/options.toml")),
+    ("graphics", include_str!("../config/menus/graphics.toml")),
+    ("graphics_eye", include_str!("../config/menus/graphics_eye.toml")),
     ("keys", include_str!("../config/menus/keys.toml")),
     ("keys_cue", include_str!("../config/menus/keys_cue.toml")),
     ("keys_say", include_str!("../config/menus/keys_say.toml")),

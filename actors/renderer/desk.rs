@@ -2,16 +2,17 @@
 
 mod aids;
 mod devices;
-mod kept_picture;
+mod drawing;
 
-use super::hud;
 use super::keys::{button, key, notches};
+use super::painter::Painter;
 use super::pointer::Pointer;
 use super::running::Running;
 use super::seeker::Seeker;
-use super::stage::{BACKGROUND, Stage};
+use super::stage::Stage;
 use super::stylus::DeskStylus;
 use super::window::{Backdrop, GameEnded, Host, WindowSetup};
+use crate::conductor::RunError;
 use crate::error::Error;
 use crate::input::PadDriver;
 use crate::pacer::StopFlag;
@@ -19,16 +20,17 @@ use hapticbillard::input::{
     Action, AimAid, Button, Controller, HandInput, RawInput, Steering, StylusMouse, View,
 };
 use hapticbillard::menu::{Begin, HapticChoice, Lobby, Order};
-use hapticbillard::renderer::{DrawList, HelpOf, Hud, MenuPanel, WheelPanel, Words};
+use hapticbillard::picture::PictureSettings;
+use hapticbillard::renderer::{DrawList, Hud, MenuPanel, Words};
 use hapticbillard::rules::Language;
 use std::time::{Duration, Instant};
-use three_d::{ClearState, CoreError, GUI, RenderTarget, Viewport, WindowedContext, egui};
+use three_d::{CoreError, GUI, WindowedContext};
 use winit::event::{DeviceEvent, ElementState, Event, WindowEvent};
 use winit::event_loop::{ControlFlow, EventLoopProxy};
 use winit::window::{Fullscreen, Window};
 
-/// A picture takes at least so long: 60 a second are enough.
-const FRAME: Duration = Duration::from_micros(16_600);
+/// How long nothing is looked at when there was nothing new: nobody sees less.
+const IDLE: Duration = Duration::from_millis(4);
 /// How long it is said where a picture went, or that a gamepad is gone.
 const SAID: Duration = Duration::from_secs(4);
 /// How long it is said what is wrong with a file of keys: a path and a line are to be read.
@@ -36,15 +38,23 @@ const SAID_LONG: Duration = Duration::from_secs(20);
 /// What was set is written when nothing more was set for so long: a scale is pulled in many steps.
 const KEEP_AFTER: Duration = Duration::from_millis(700);
 
+/// Why nothing can be drawn.
+fn no_stage(error: CoreError) -> Error {
+    RunError::Start(format!("OpenGL: {error}")).into()
+}
+
 /// The window with all that is drawn into it.
 pub(super) struct Desk<'a> {
     window: Window,
     graphics: WindowedContext,
     gui: GUI,
+    painter: Painter,
     host: &'a mut dyn Host,
     ended: EventLoopProxy<GameEnded>,
     stop: StopFlag,
     system: Language,
+    /// How pictures are drawn without a menu.
+    picture: PictureSettings,
     lobby: Lobby,
     /// The language that everything is written in, and its words of the menus.
     spoken: Language,
@@ -106,10 +116,12 @@ impl<'a> Desk<'a> {
         let mut desk = Desk {
             window,
             gui,
+            painter: Painter::new(&graphics).map_err(no_stage)?,
             host,
             ended,
             stop: setup.stop,
             system: setup.language,
+            picture: setup.picture,
             spoken: setup.language,
             words: Words::of_menus(setup.language).with_keys(&setup.keys.0),
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
@@ -195,8 +207,13 @@ impl<'a> Desk<'a> {
                     self.change_stylus();
                 }
                 if self.due <= Instant::now() {
-                    self.draw();
-                    self.due = (self.due + FRAME).max(Instant::now());
+                    let is_new = self.draw();
+                    let period =
+                        Duration::from_secs_f64(self.picture_settings().frame_limit.period_s());
+                    let wait = if is_new { period } else { period.max(IDLE) };
+                    let now = Instant::now();
+                    // Without a limit nothing is made up for.
+                    self.due = (self.due + wait).max(if is_new { now } else { now + IDLE });
                 }
                 flow.set_wait_until(self.due);
             }
@@ -366,6 +383,7 @@ impl<'a> Desk<'a> {
             // A window that is gone need not be told.
             let _ = ended.send_event(GameEnded);
         };
+        self.show_progress(0.1);
         let written = (language, self.lobby.bindings());
         let is_shaken = self.pads.is_some();
         let game = Running::begin(prepared, &self.graphics, written, is_shaken, tell)?;
@@ -373,14 +391,18 @@ impl<'a> Desk<'a> {
         (self.volume, self.aid, self.steering) = (None, None, None);
         self.lobby.began();
         self.apply();
+        self.warm_up();
         Ok(())
     }
 
     /// A table behind the main menu, if there is one and it is not there yet.
     fn set_up_backdrop(&mut self) -> Result<(), Error> {
         if self.backdrop.is_none() && self.lobby.menu().is_some() {
+            self.show_progress(0.1);
             let Backdrop { table, list } = self.host.backdrop()?;
-            self.backdrop = Some((list, Stage::new(&self.graphics, &table)));
+            let stage = Stage::new(&self.graphics, &table).map_err(no_stage)?;
+            self.backdrop = Some((list, stage));
+            self.warm_up();
         }
         Ok(())
     }
@@ -416,6 +438,8 @@ impl<'a> Desk<'a> {
     /// Something was set.
     fn changed(&mut self) {
         self.unkept = Some(Instant::now());
+        // The same things may look otherwise now.
+        self.shown = None;
         self.speak();
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
         if std::mem::replace(&mut self.is_full, is_full) != is_full {
@@ -468,121 +492,6 @@ impl<'a> Desk<'a> {
             && let Some(menu) = self.lobby.menu()
         {
             self.host.keep(&menu.settings);
-        }
-    }
-
-    /// What is drawn and written now.
-    fn seen(&mut self) -> Option<(DrawList, Hud)> {
-        let now_s = self.now_s();
-        let help = self.help();
-        // Both would stand on each other.
-        let panel = self.panel().filter(|_| help.is_none());
-        let Some(game) = &mut self.game else {
-            let (list, _) = self.backdrop.as_ref()?;
-            let pointer = self.pointer_shown();
-            return Some((list.clone(), Hud { menu: panel, help, pointer, ..Hud::default() }));
-        };
-        let view = game.view();
-        let words = &self.words;
-        let wheel = self.lobby.wheel().map(|wheel| WheelPanel::new(wheel, words));
-        let (list, mut hud) = game.seen(&view, self.lobby.is_by_pad(), now_s);
-        if help.is_some() {
-            (hud.help, hud.help_hint) = (help, String::new());
-        }
-        if let Some(mut panel) = panel {
-            if let (Some((title, _)), true) = (&hud.banner, self.lobby.is_over()) {
-                panel.title.clone_from(title);
-            }
-            // The menu says it.
-            hud.banner = None;
-            (hud.hint, hud.help_hint, hud.lesson) = (String::new(), String::new(), None);
-            hud.options.clear();
-            hud.menu = Some(panel);
-        }
-        hud.pointer = if wheel.is_none() { self.pointer_shown() } else { None };
-        hud.wheel = wheel;
-        Some((list, hud))
-    }
-
-    /// The table of controls, while it is wanted.
-    fn help(&self) -> Option<(String, Vec<(String, String)>)> {
-        let is_by_pad = self.lobby.is_by_pad();
-        let of = match &self.game {
-            _ if !self.lobby.shows_help() => return None,
-            Some(game) if !self.lobby.is_menu_open() => game.help(is_by_pad),
-            _ => HelpOf::Menu,
-        };
-        let words = Words::new(self.spoken).with_keys(self.lobby.bindings());
-        Some((words.get("help_title"), words.help(of)))
-    }
-
-    fn draw(&mut self) {
-        let now_s = self.now_s();
-        let mut begun = None;
-        if let Some(game) = &mut self.game {
-            game.meters.show(self.shows_meters);
-            begun = game.meters.now();
-            game.take_news(now_s);
-            for order in self.lobby.see(&game.view()) {
-                if let Order::Tell(input) = order {
-                    game.outbox.say(input);
-                }
-            }
-            self.look_after_aids();
-            let Some(game) = &mut self.game else { return };
-            let felt = game.shake.take();
-            let wants = self.lobby.menu().is_none_or(|menu| menu.settings.rumble);
-            if let (Some(rumble), Some(pads), true) = (felt, &self.pads, wants) {
-                pads.shake(rumble);
-            }
-        }
-        self.hold_pointer();
-        let Some((list, mut written)) = self.seen() else { return };
-        self.said.take_if(|(_, until)| *until < Instant::now());
-        written.message.extend(self.said.iter().map(|(said, _)| said.clone()));
-        let size = self.window.inner_size();
-        let is_same = self.shown.as_ref().is_some_and(|(a, b)| (a, b) == (&list, &written));
-        if is_same || size.width == 0 || size.height == 0 {
-            self.note_picture(None);
-            return;
-        }
-        let viewport = Viewport::new_at_origo(size.width, size.height);
-        let target = RenderTarget::screen(&self.graphics, size.width, size.height);
-        let [r, g, b] = BACKGROUND;
-        target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
-        self.gui.update(&mut [], now_s * 1e3, viewport, 1.0, |ui| {
-            let layer = egui::LayerId::background();
-            hud::paint(&ui.ctx().layer_painter(layer), &list, &written);
-        });
-        let stage = match (&mut self.game, &mut self.backdrop) {
-            (Some(game), _) => &mut game.stage,
-            (None, Some((_, stage))) => stage,
-            (None, None) => return,
-        };
-        let gui = &self.gui;
-        let drawn = target.write::<CoreError>(|| {
-            stage.draw(&list, viewport);
-            gui.render()
-        });
-        let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
-        let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
-        match drawn.map(|_| self.graphics.swap_buffers()) {
-            Ok(Ok(())) => {
-                self.shown = Some((list, written));
-                self.note_picture(begun);
-            }
-            Ok(Err(error)) => tracing::warn!("the window shows nothing: {error}"),
-            Err(error) => tracing::warn!("the window shows nothing: {error}"),
-        }
-        if let Some(rows) = picture {
-            self.keep_picture(&rows, (size.width, size.height));
-        }
-    }
-
-    /// A picture is there, begun then, or another one was not needed.
-    fn note_picture(&mut self, begun: Option<Instant>) {
-        if let Some(game) = &mut self.game {
-            game.meters.drawn(begun);
         }
     }
 }

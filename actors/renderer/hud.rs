@@ -14,10 +14,11 @@ pub(super) const FAINT: Color32 = Color32::from_rgb(176, 174, 166);
 pub(super) const ACTIVE: Color32 = Color32::from_rgb(255, 205, 96);
 pub(super) const FOUL: Color32 = Color32::from_rgb(255, 128, 108);
 
-/// Draws the labels of a picture and the display over a window of the painter's size.
-pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
+/// Draws the labels of a picture and the display over a window of the painter's size, so many times
+/// as large as usual.
+pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud, scale: f32) {
     let screen = painter.clip_rect();
-    let unit = unit_of(screen);
+    let unit = unit_for(screen, scale);
     let pen = Pen { painter, screen, unit };
     for label in &list.labels {
         pen.label(label, &list.camera);
@@ -61,23 +62,47 @@ pub fn paint(painter: &Painter, list: &DrawList, hud: &Hud) {
     }
 }
 
+/// Draws how much is ready [0 to 1] into the middle of a window.
+pub fn progress(painter: &Painter, text: &str, share: f32) {
+    let screen = painter.clip_rect();
+    let pen = Pen { painter, screen, unit: unit_of(screen) };
+    let size = vec2(260.0, 6.0) * pen.unit;
+    let bar = Rect::from_center_size(screen.center(), size);
+    painter.rect_filled(bar, 0.5 * size.y, Color32::from_gray(58));
+    let done = bar.with_max_x(bar.left() + share.clamp(0.0, 1.0) * size.x);
+    painter.rect_filled(done, 0.5 * size.y, ACTIVE);
+    let above = bar.center() - vec2(0.0, 22.0 * pen.unit);
+    pen.text(above, Align2::CENTER_CENTER, text, 17.0, TEXT);
+}
+
 /// Where the lines of options stand in a window of this size: all of one height, in the middle.
-fn option_lines(screen: Rect, count: usize) -> impl Iterator<Item = Rect> {
-    let unit = unit_of(screen);
+fn option_lines(screen: Rect, scale: f32, count: usize) -> impl Iterator<Item = Rect> {
+    let unit = unit_for(screen, scale);
     let size = vec2(620.0, 34.0) * unit;
     let top = screen.center() - vec2(0.5 * size.x, 0.5 * size.y * count as f32);
     (0..count).map(move |i| Rect::from_min_size(top + vec2(0.0, size.y * i as f32), size))
 }
 
 /// The option whose line is at this place of a window [pixels], counted from 0.
-pub fn option_at(hud: &Hud, (width, height): (f32, f32), (x, y): (f32, f32)) -> Option<usize> {
+pub fn option_at(
+    hud: &Hud,
+    (width, height): (f32, f32),
+    scale: f32,
+    (x, y): (f32, f32),
+) -> Option<usize> {
     let screen = Rect::from_min_size(Pos2::ZERO, vec2(width, height));
-    option_lines(screen, hud.options.len()).position(|line| line.contains(pos2(x, y)))
+    option_lines(screen, scale, hud.options.len()).position(|line| line.contains(pos2(x, y)))
 }
 
 /// Everything grows with the window; readable at 1280 x 720 and below.
 fn unit_of(screen: Rect) -> f32 {
     (screen.height() / 720.0).clamp(0.6, 3.0)
+}
+
+/// The same, so many times as large as usual, and never so large that two panels do not fit beside
+/// each other.
+fn unit_for(screen: Rect, scale: f32) -> f32 {
+    (unit_of(screen) * scale).min((screen.width() / 640.0).max(0.6))
 }
 
 /// What everything is drawn with.
@@ -89,6 +114,11 @@ pub(super) struct Pen<'a> {
 }
 
 impl Pen<'_> {
+    /// How many times as large as usual everything is.
+    fn largeness(&self) -> f32 {
+        self.unit / unit_of(self.screen)
+    }
+
     pub fn font(&self, size: f32) -> FontId {
         FontId::proportional(size * self.unit)
     }
@@ -228,7 +258,9 @@ impl Pen<'_> {
     }
 
     fn options(&self, options: &[String]) {
-        for (text, line) in options.iter().zip(option_lines(self.screen, options.len())) {
+        for (text, line) in
+            options.iter().zip(option_lines(self.screen, self.largeness(), options.len()))
+        {
             self.panel(line.shrink(2.0 * self.unit));
             let at = line.left_center() + vec2(16.0 * self.unit, 0.0);
             self.text(at, Align2::LEFT_CENTER, text, 17.0, TEXT);

@@ -1,59 +1,128 @@
 //! Shaders as materials: each one a text, its render states and what it is told.
 
+use hapticbillard::renderer::{LAMP_APART_M, LAMP_HEIGHT_M};
 use three_d::*;
 
 const LIGHT: &str = include_str!("shaders/light.glsl");
+const SEEN: &str = include_str!("shaders/seen.glsl");
 const SURFACE: &str = include_str!("shaders/surface.frag");
-const BALL: &str = include_str!("shaders/ball.frag");
-const SHADOW: &str = include_str!("shaders/shadow.frag");
 const PAINTED: &str = include_str!("shaders/painted.frag");
 const PLAIN: &str = include_str!("shaders/plain.frag");
+const PLAN: &str = include_str!("shaders/plan.frag");
+const PLAN_FLOOR: &str = include_str!("shaders/plan_floor.frag");
+const NOTHING: &str = include_str!("shaders/nothing.frag");
+
+/// The text that all shaders of a picture begin with.
+fn light() -> String {
+    format!(
+        "const float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\nconst float LAMP_APART = {LAMP_APART_M:?};\n\
+         {LIGHT}"
+    )
+}
+
+/// A program of a vertex shader and the parts of a fragment shader, with numbers that both know.
+///
+/// # Errors
+/// The graphics card's compiler does not take it.
+pub fn program(
+    context: &Context,
+    vertex: &str,
+    set: &[(&str, u32)],
+    fragment: &[&str],
+) -> Result<Program, CoreError> {
+    let set: String = set.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
+    let fragment = format!("{set}{}{}", light(), fragment.concat());
+    Program::from_source(context, &format!("{set}{vertex}"), &fragment)
+}
+
+/// What every shader of a picture may want to know.
+#[derive(Debug, Clone, Copy)]
+pub struct Facts {
+    /// Half the bed [m].
+    pub bed: Vec2,
+}
+
+impl Facts {
+    /// Tells a shader.
+    pub fn tell(&self, program: &Program, viewer: &dyn Viewer) {
+        program.use_uniform_if_required("eye", viewer.position());
+        program.use_uniform_if_required("bed", self.bed);
+        program.use_uniform_if_required("view_projection", viewer.projection() * viewer.view());
+    }
+}
+
+/// How surfaces are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Finish {
+    /// What the shader's SHADOWS is.
+    pub shadows: u8,
+    /// Nap and grain are drawn.
+    pub has_detail: bool,
+}
 
 /// The shaders. The library keeps compiled programs by number, so each has its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shader {
     /// A part of table or room, of this kind.
-    Surface(u16),
-    /// A ball.
-    Ball,
-    /// A ball's shadow.
-    Shadow,
+    Surface(u16, Finish),
+    /// A part of a table from the picture of it from above.
+    Plan,
+    /// The floor about it.
+    PlanFloor,
     /// Coloured vertices.
     Painted,
     /// Lines and see-through balls.
     Plain,
     /// The same, shining through what lies before it.
     Over,
+    /// Only the depth.
+    Depth,
 }
 
 impl Shader {
     fn number(self) -> u16 {
         match self {
-            Shader::Ball => 1,
-            Shader::Shadow => 2,
+            Shader::Depth => 2,
             Shader::Painted => 3,
             Shader::Plain => 4,
             Shader::Over => 5,
-            Shader::Surface(kind) => 0x100 + kind,
+            Shader::Plan => 6,
+            Shader::PlanFloor => 7,
+            Shader::Surface(kind, Finish { shadows, has_detail }) => {
+                0x100 + kind + 0x20 * u16::from(shadows) + 0x80 * u16::from(has_detail)
+            }
         }
     }
 
     fn text(self) -> String {
+        let light = light();
         match self {
-            Shader::Ball => format!("{LIGHT}{BALL}"),
-            Shader::Shadow => format!("{LIGHT}{SHADOW}"),
-            Shader::Painted => format!("{LIGHT}{PAINTED}"),
-            Shader::Plain | Shader::Over => format!("{LIGHT}{PLAIN}"),
-            Shader::Surface(kind) => format!("#define KIND {kind}\n{LIGHT}{SURFACE}"),
+            Shader::Depth => NOTHING.into(),
+            Shader::Plan => PLAN.into(),
+            Shader::PlanFloor => PLAN_FLOOR.into(),
+            Shader::Painted => format!("{light}{PAINTED}"),
+            Shader::Plain | Shader::Over => format!("{light}{PLAIN}"),
+            Shader::Surface(kind, Finish { shadows, has_detail }) => {
+                let detail = u8::from(has_detail);
+                format!(
+                    "#define KIND {kind}\n#define SHADOWS {shadows}\n#define DETAIL {detail}\n\
+                     {light}{SEEN}{SURFACE}"
+                )
+            }
         }
     }
 
     fn states(self) -> RenderStates {
         match self {
-            Shader::Surface(_) | Shader::Ball | Shader::Painted => {
+            Shader::Surface(..) | Shader::Plan | Shader::PlanFloor | Shader::Painted => {
                 RenderStates { cull: Cull::Back, ..RenderStates::default() }
             }
-            Shader::Shadow | Shader::Plain | Shader::Over => RenderStates {
+            Shader::Depth => RenderStates {
+                write_mask: WriteMask::DEPTH,
+                cull: Cull::Back,
+                ..RenderStates::default()
+            },
+            Shader::Plain | Shader::Over => RenderStates {
                 write_mask: WriteMask::COLOR,
                 blend: Blend::TRANSPARENCY,
                 cull: Cull::Back,
@@ -69,8 +138,8 @@ pub struct Told<'a> {
     pub shader: Shader,
     /// Sets the shader's own uniforms.
     pub tell: &'a dyn Fn(&Program),
-    /// Half the bed [m].
-    pub bed: Vec2,
+    /// What all shaders know.
+    pub facts: Facts,
 }
 
 impl Material for Told<'_> {
@@ -84,7 +153,7 @@ impl Material for Told<'_> {
 
     fn use_uniforms(&self, program: &Program, viewer: &dyn Viewer, _: &[&dyn Light]) {
         program.use_uniform_if_required("eye", viewer.position());
-        program.use_uniform_if_required("bed", self.bed);
+        program.use_uniform_if_required("bed", self.facts.bed);
         (self.tell)(program);
     }
 
@@ -94,8 +163,12 @@ impl Material for Told<'_> {
 
     fn material_type(&self) -> MaterialType {
         match self.shader {
-            Shader::Shadow | Shader::Plain | Shader::Over => MaterialType::Transparent,
-            Shader::Surface(_) | Shader::Ball | Shader::Painted => MaterialType::Opaque,
+            Shader::Plain | Shader::Over => MaterialType::Transparent,
+            Shader::Surface(..)
+            | Shader::Plan
+            | Shader::PlanFloor
+            | Shader::Painted
+            | Shader::Depth => MaterialType::Opaque,
         }
     }
 }

@@ -2,18 +2,19 @@
 
 use super::NoPicture;
 use super::hud;
+use super::painter::Painter;
 use super::stage::{BACKGROUND, Stage};
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use khronos_egl as egl;
 use std::sync::Arc;
+use std::time::Instant;
 use three_d::context::{HasContext, RENDERER};
 use three_d::*;
 
 /// EGL_PLATFORM_SURFACELESS_MESA.
 const SURFACELESS: egl::Enum = 0x31DD;
-/// Samples per pixel.
-const SAMPLES: u32 = 4;
 
 type Egl = egl::DynamicInstance<egl::EGL1_5>;
 
@@ -78,42 +79,133 @@ pub fn card() -> Result<String, NoPicture> {
     Ok(unsafe { context.get_parameter_string(RENDERER) })
 }
 
-/// One picture, rows from the top, red, green, blue and opacity in each pixel; nothing is written
-/// over it.
-///
-/// # Errors
-/// [`NoPicture`] if this machine has no OpenGL.
-pub fn pixels(table: &Table, list: &DrawList, size: (u32, u32)) -> Result<Vec<[u8; 4]>, NoPicture> {
-    written(table, list, &Hud::default(), size)
+/// Where pictures of a table are made without a window.
+pub struct Studio {
+    context: Context,
+    stage: Stage,
+    painter: Painter,
+    gui: GUI,
+    /// What pictures are drawn into, and its size.
+    target: Option<(Texture2D, DepthTexture2D)>,
 }
 
-/// The same with labels and display.
-///
-/// # Errors
-/// [`NoPicture`] if this machine has no OpenGL.
-pub fn written(
-    table: &Table,
-    list: &DrawList,
-    hud: &Hud,
-    (width, height): (u32, u32),
-) -> Result<Vec<[u8; 4]>, NoPicture> {
-    let context = context()?;
-    let mut stage = Stage::new(&context, table);
-    let viewport = Viewport::new_at_origo(width, height);
-    let mut gui = GUI::new(&context);
-    gui.update(&mut [], 0.0, viewport, 1.0, |ui| {
-        let layer = egui::LayerId::background();
-        hud::paint(&ui.ctx().layer_painter(layer), list, hud);
-    });
-    let target = RenderTargetMultisample::<[u8; 4], f32>::new(&context, width, height, SAMPLES);
-    let [r, g, b] = BACKGROUND;
-    target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
-    target
-        .write::<CoreError>(|| {
-            stage.draw(list, viewport);
-            gui.render()
+impl Studio {
+    /// Brings a table into the graphics card.
+    ///
+    /// # Errors
+    /// [`NoPicture`] if this machine has no OpenGL.
+    pub fn new(table: &Table) -> Result<Self, NoPicture> {
+        let context = context()?;
+        let wrong = |error: CoreError| failed("OpenGL", error);
+        Ok(Studio {
+            stage: Stage::new(&context, table).map_err(wrong)?,
+            painter: Painter::new(&context).map_err(wrong)?,
+            gui: GUI::new(&context),
+            target: None,
+            context,
         })
-        .map_err(|error| failed("OpenGL", error))?;
-    let texture = target.resolve_color();
-    Ok(texture.as_color_target(None).read())
+    }
+
+    /// What draws, by its own name.
+    #[allow(unsafe_code)]
+    pub fn card(&self) -> String {
+        // SAFETY: the context is current on this thread; reading a string changes nothing.
+        unsafe { self.context.get_parameter_string(RENDERER) }
+    }
+
+    /// One picture, rows from the top, red, green, blue and opacity in each pixel; nothing is
+    /// written over it.
+    ///
+    /// # Errors
+    /// [`NoPicture`] if the graphics card refuses.
+    pub fn pixels(
+        &mut self,
+        list: &DrawList,
+        settings: &PictureSettings,
+        size: (u32, u32),
+    ) -> Result<Vec<[u8; 4]>, NoPicture> {
+        self.written(list, &Hud::default(), settings, size)
+    }
+
+    /// The same with labels and display.
+    ///
+    /// # Errors
+    /// [`NoPicture`] if the graphics card refuses.
+    pub fn written(
+        &mut self,
+        list: &DrawList,
+        hud: &Hud,
+        settings: &PictureSettings,
+        size: (u32, u32),
+    ) -> Result<Vec<[u8; 4]>, NoPicture> {
+        self.draw(list, hud, settings, size)?;
+        let (colour, _) = self.target(size);
+        Ok(colour.as_color_target(None).read())
+    }
+
+    /// Draws a picture and waits until it is there, without reading it. Returns how long it took
+    /// [s].
+    ///
+    /// # Errors
+    /// [`NoPicture`] if the graphics card refuses.
+    #[allow(unsafe_code)]
+    pub fn timed(
+        &mut self,
+        list: &DrawList,
+        settings: &PictureSettings,
+        size: (u32, u32),
+    ) -> Result<f64, NoPicture> {
+        let begun = Instant::now();
+        self.draw(list, &Hud::default(), settings, size)?;
+        // SAFETY: the context is current on this thread; waiting for it changes nothing.
+        unsafe { self.context.finish() };
+        Ok(begun.elapsed().as_secs_f64())
+    }
+
+    fn target(&mut self, (width, height): (u32, u32)) -> &(Texture2D, DepthTexture2D) {
+        let fits = |(colour, _): &(Texture2D, DepthTexture2D)| {
+            (colour.width(), colour.height()) == (width, height)
+        };
+        let (edge, soft) = (Wrapping::ClampToEdge, Interpolation::Linear);
+        let context = &self.context;
+        let old = self.target.take().filter(fits);
+        self.target.insert(old.unwrap_or_else(|| {
+            (
+                Texture2D::new_empty::<[u8; 4]>(
+                    context, width, height, soft, soft, None, edge, edge,
+                ),
+                DepthTexture2D::new::<f32>(context, width, height, edge, edge),
+            )
+        }))
+    }
+
+    fn draw(
+        &mut self,
+        list: &DrawList,
+        hud: &Hud,
+        settings: &PictureSettings,
+        size: (u32, u32),
+    ) -> Result<(), NoPicture> {
+        let wrong = |error: CoreError| failed("OpenGL", error);
+        let viewport = Viewport::new_at_origo(size.0, size.1);
+        let scale = f32::from(settings.hud_scale) / 100.0;
+        self.gui.update(&mut [], 0.0, viewport, 1.0, |ui| {
+            let layer = egui::LayerId::background();
+            hud::paint(&ui.ctx().layer_painter(layer), list, hud, scale);
+        });
+        let ready = self.painter.prepare(&mut self.stage, list, settings, size).map_err(wrong)?;
+        self.target(size);
+        let Some((colour, depth)) = &self.target else { return Ok(()) };
+        let target = RenderTarget::new(colour.as_color_target(None), depth.as_depth_target());
+        let [r, g, b] = BACKGROUND;
+        let (painter, stage, gui) = (&self.painter, &mut self.stage, &self.gui);
+        target
+            .clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0))
+            .write::<CoreError>(|| {
+                painter.finish(ready, stage, list, settings, viewport);
+                gui.render()
+            })
+            .map_err(wrong)?;
+        Ok(())
+    }
 }

@@ -19,8 +19,10 @@ use hapticbillard::input::{
     Bindings, HandInput, HumanMode, HumanView, Room, Rumble, StylusMouse, StylusSays, Tutor,
 };
 use hapticbillard::physics::Snapshot;
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{
     DrawList, HelpOf, Hud, Mount, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
+    draw_vectors,
 };
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
@@ -109,6 +111,8 @@ pub struct Running {
     pub tutor: Option<Tutor>,
     /// Shots that can be seen again.
     pub film: FilmScreen,
+    /// How its pictures are drawn.
+    pub picture: PictureSettings,
     /// The hardest contact since somebody took it, for a gamepad.
     pub shake: Option<Rumble>,
     view: triple_buffer::Output<HumanView>,
@@ -159,7 +163,8 @@ impl Running {
             Ports { raw, view: view_in, world: world_in, film: film_in, sink, meters: measured };
         let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         Ok(Running {
-            stage: Stage::new(context, &setup.table),
+            stage: Stage::new(context, &setup.table)
+                .map_err(|error| RunError::Start(format!("OpenGL: {error}")))?,
             outbox: Outbox::new(raw_in),
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
@@ -169,6 +174,7 @@ impl Running {
             tutor: setup.is_lesson.then(Tutor::default),
             film: FilmScreen::new(film),
             meters: MetersScreen::new(meters),
+            picture: PictureSettings::default(),
             shake: None,
             view,
             world,
@@ -280,7 +286,11 @@ impl Running {
         if let Some((world, view)) = self.film.seen(dt) {
             let view = self.mount.carry(view, &world);
             let view = self.hung(view, dt);
+            self.radii.mark(self.picture.marks);
             let mut list = DrawList::new(&world, &view, &self.radii);
+            if self.picture.vectors {
+                draw_vectors(&world, &self.radii, &mut list);
+            }
             if self.shows_traces {
                 list.show_traces(self.film.ways(), view.cue_ball, &self.radii);
             }
@@ -330,6 +340,7 @@ impl Running {
     }
 
     fn drawn(&mut self, view: &HumanView, now_s: f64, dt: f64) -> (DrawList, Hud) {
+        self.radii.mark(self.picture.marks);
         let world = self.playhead.shown(now_s);
         let mut view = self.mount.carry(view.clone(), &world);
         if let Some(felt) = &mut self.felt {
@@ -338,9 +349,16 @@ impl Running {
         let (view, radii) = (self.hung(view, dt), &self.radii);
         let Some(felt) = &mut self.felt else {
             let written = Hud::new(&self.board, &view, &self.texts, &self.words);
-            return (DrawList::new(&world, &view, radii), written);
+            let mut list = DrawList::new(&world, &view, radii);
+            if self.picture.vectors {
+                draw_vectors(&world, radii, &mut list);
+            }
+            return (list, written);
         };
         let mut list = DrawList::new(&world, &view, radii);
+        if self.picture.vectors {
+            draw_vectors(&world, radii, &mut list);
+        }
         felt.draw(&mut list);
         let written = Hud::new(&self.board, &view, &self.texts, &self.words);
         (list, felt.write(written, &view, &self.words))

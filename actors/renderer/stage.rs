@@ -2,68 +2,87 @@
 //!
 //! Everything here lives and dies on the thread that owns the graphics context.
 
-use super::materials::{Shader, Told};
+use super::balls::{Balls, shadow_number};
+use super::materials::{Facts, Finish, Shader, Told, program};
+use super::meshes::{ground, laid, marks, part_mesh, shape_mesh, square};
+use super::shadows::{DownEye, Maps, Volumes};
 use super::textures;
-use hapticbillard::cue::CuePose;
-use hapticbillard::ids::BallId;
+use hapticbillard::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose, TIP_RADIUS_M};
 use hapticbillard::input::CameraPose;
 use hapticbillard::mesh::Surface;
+use hapticbillard::picture::{PictureSettings, Shadows};
 use hapticbillard::renderer::{
-    BallInstance, DrawList, GhostBall, Line, Shape, Solid, SolidShape, StylusPose,
+    DrawList, GhostBall, Line, Solid, SolidShape, StylusPose, cone, cue_shape, cylinder, sphere,
+    stylus_shape,
 };
-use hapticbillard::renderer::{ball_look, cone, cue_shape, cylinder, sphere, stylus_shape};
-use hapticbillard::table::{ClothMarks, DisplayPart, Material as Made, Table};
+use hapticbillard::table::{Material as Made, Table};
 use three_d::*;
 
-/// How often an icosahedron's triangles are divided: 1280 triangles a ball.
-const BALL_LEVEL: u32 = 3;
-/// How far shadows float above the cloth [m]: above the marks on it.
-const SHADOW_LIFT_M: f32 = 0.0011;
-/// Half the side of a shadow's square, in radii.
-const SHADOW_REACH: f32 = 5.0;
-/// Half the side of endless ground [m].
-const GROUND_M: f32 = 8.0;
+/// How often the triangles of see-through balls are divided.
+const GHOST_LEVEL: u32 = 3;
+/// How far beside a cue its shadow can be [m].
+const CUE_SHADOW_M: f32 = 0.3;
+/// How far the shadow of a cue floats above the cloth [m].
+const CUE_SHADOW_LIFT_M: f32 = 0.0011;
+
+/// Size of the picture of a table from above [pixels], and how far it reaches beyond the table [m].
+const PLAN: (u32, u32) = (2048, 1024);
+const PLAN_MARGIN_M: f32 = 0.02;
+/// The numbers of some surfaces.
+const APRON: u16 = 3;
+const POCKET: u16 = 5;
+const FLOOR: u16 = 8;
+
+/// Height under which the balls on a table darken nothing [m].
+const UNDER_CLOTH_M: f32 = -0.12;
 
 /// What the picture is cleared to: the dark of the room.
 pub const BACKGROUND: [f32; 3] = [0.130, 0.127, 0.136];
 
 /// Meshes and textures.
 pub struct Stage {
-    parts: Vec<(Shader, Mesh)>,
-    ball: Mesh,
+    context: Context,
+    parts: Vec<(u16, Mesh)>,
+    balls: Balls,
+    ghost: Mesh,
     cue: Mesh,
+    cue_shadow: Program,
     square: Mesh,
+    square_corners: VertexBuffer<Vec3>,
     stylus: Mesh,
     cylinder: Mesh,
     cone: Mesh,
-    digits: Texture2DArray,
     nap: Texture2D,
     wood: Texture2D,
-    bed: Vec2,
+    facts: Facts,
     outer: Vec2,
     line_and_d: Vec2,
-    spots: [Vec2; 6],
+    spots: ([Vec2; 6], i32),
     pockets: [Vec3; 6],
+    /// Made when they are first wanted: the table from above, and what shadows need.
+    plan: Option<Texture2D>,
+    maps: Option<Maps>,
+    volumes: Option<Volumes>,
 }
 
 impl Stage {
     /// Brings a table into the graphics card.
-    pub fn new(context: &Context, table: &Table) -> Self {
-        let mut parts: Vec<(Shader, Mesh)> = table
+    ///
+    /// # Errors
+    /// Its compiler does not take a shader.
+    pub fn new(context: &Context, table: &Table) -> Result<Self, CoreError> {
+        let mut parts: Vec<(u16, Mesh)> = table
             .display()
             .iter()
             // Marks are thinner than a pixel from afar: the cloth's shader paints them.
             .filter(|part| part.material != Made::Line)
-            .map(|part| {
-                (Shader::Surface(kind(part.material)), Mesh::new(context, &part_mesh(part)))
-            })
+            .map(|part| (kind(part.material), Mesh::new(context, &part_mesh(part))))
             .collect();
         if table.bed.is_none() {
             let level = table.planes.iter().filter(|plane| plane.normal.z > 0.9);
             parts.extend(level.map(|plane| {
                 let made = if plane.surface == Surface::Cloth { Made::Cloth } else { Made::Floor };
-                let mesh = Mesh::new(context, &ground(plane.point.z as f32));
-                (Shader::Surface(kind(made)), mesh)
+                (kind(made), Mesh::new(context, &ground(plane.point.z as f32)))
             }));
         }
         let mut pockets = [vec3(0.0, 0.0, -1.0); 6];
@@ -75,102 +94,231 @@ impl Stage {
             vec2(0.5 * bed.length_m as f32, 0.5 * bed.width_m as f32)
         });
         let (line_and_d, spots) = table.parameters.as_ref().map_or_else(
-            || (vec2(0.0, 0.0), [vec2(0.0, 0.0); 6]),
+            || (vec2(0.0, 0.0), ([vec2(0.0, 0.0); 6], 0)),
             |parameters| marks(&parameters.cloth_marks()),
         );
-        Stage {
+        let corners =
+            [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
+                .map(|[x, y]| vec3(x, y, 0.0));
+        let (place, shade) =
+            (include_str!("shaders/cue_shadow.vert"), include_str!("shaders/cue_shadow.frag"));
+        Ok(Stage {
             parts,
-            ball: Mesh::new(context, &shape_mesh(&sphere(BALL_LEVEL))),
+            balls: Balls::new(context)?,
+            ghost: Mesh::new(context, &shape_mesh(&sphere(GHOST_LEVEL))),
             cue: Mesh::new(context, &shape_mesh(&cue_shape())),
+            cue_shadow: program(context, place, &[], &[shade])?,
             square: Mesh::new(context, &square()),
+            square_corners: VertexBuffer::new_with_data(context, &corners),
             stylus: Mesh::new(context, &shape_mesh(&stylus_shape())),
             cylinder: Mesh::new(context, &shape_mesh(&cylinder())),
             cone: Mesh::new(context, &shape_mesh(&cone())),
-            digits: textures::digits(context),
             nap: textures::nap(context),
             wood: textures::wood(context),
-            bed,
+            facts: Facts { bed },
             line_and_d,
             spots,
             outer: bed + vec2(0.2, 0.2),
             pockets,
-        }
+            plan: None,
+            maps: None,
+            volumes: None,
+            context: context.clone(),
+        })
     }
 
-    /// Draws a picture into whatever is the target now.
-    pub fn draw(&mut self, list: &DrawList, viewport: Viewport) {
+    /// Gets ready what a picture of this size needs, in pictures of its own: no target may be
+    /// written to meanwhile.
+    ///
+    /// # Errors
+    /// The graphics card's compiler does not take a shader, or it gives no room.
+    pub fn prepare(
+        &mut self,
+        list: &DrawList,
+        settings: &PictureSettings,
+        viewport: Viewport,
+    ) -> Result<Camera, CoreError> {
         let camera = camera(&list.camera, viewport);
-        // Balls hide much of the cloth, so they come first.
-        for ball in &list.balls {
-            self.ball(ball, &camera);
-        }
+        let pixels_per_rad =
+            viewport.height as f32 / (2.0 * (0.5 * list.camera.field_of_view_rad as f32).tan());
+        self.balls.take(list, settings, pixels_per_rad)?;
         if let Some(cue) = &list.cue {
-            self.cue(cue, &camera);
+            let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
+            self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
         }
+        if self.is_plain(settings) && self.plan.is_none() {
+            self.plan = Some(self.seen_from_above()?);
+        }
+        let cue = list.cue.as_ref().map(|_| &self.cue);
+        match settings.shadows {
+            Shadows::Maps => {
+                let frame = if self.facts.bed.x > 0.0 { self.outer } else { vec2(2.0, 1.0) };
+                let maps = self.maps.get_or_insert_with(|| Maps::new(&self.context, frame));
+                maps.draw(&self.balls, cue, self.facts)?;
+            }
+            Shadows::Volumes => {
+                let volumes = match &mut self.volumes {
+                    Some(volumes) => volumes,
+                    none => none.insert(Volumes::new(&self.context)?),
+                };
+                let told = Told { shader: Shader::Depth, tell: &|_| {}, facts: self.facts };
+                let meshes = self.parts.iter().map(|(_, mesh)| mesh).chain(cue);
+                let lowest = if self.facts.bed.x > 0.0 { UNDER_CLOTH_M } else { -4.0 };
+                volumes.draw(&self.balls, list.cue.as_ref(), lowest, &camera, || {
+                    meshes.for_each(|mesh| mesh.render_with_material(&told, &camera, &[]));
+                })?;
+            }
+            Shadows::Off | Shadows::Soft => {}
+        }
+        Ok(camera)
+    }
+
+    /// Draws a picture that is prepared into whatever is the target now.
+    pub fn draw(&mut self, list: &DrawList, settings: &PictureSettings, camera: &Camera) {
         if let Some(stylus) = &list.stylus {
-            self.stylus(stylus, &camera);
+            self.stylus(stylus, camera);
         }
-        for (shader, mesh) in &self.parts {
-            let is_cloth = matches!(shader, Shader::Surface(0 | 1));
-            let grain = if is_cloth { &self.nap } else { &self.wood };
-            let (outer, line_and_d, spots) = (self.outer, self.line_and_d, &self.spots);
+        let (maps, volumes, viewport) = (&self.maps, &self.volumes, camera.viewport());
+        let shadows = settings.shadows;
+        let tell_shadows = |program: &Program| match (shadows, maps, volumes) {
+            (Shadows::Maps, Some(maps), _) => maps.tell(program),
+            (Shadows::Volumes, _, Some(volumes)) => volumes.tell(program, viewport),
+            _ => {}
+        };
+        // Balls hide much of the cloth, so they come first.
+        self.balls.draw(settings, camera, &self.facts, &tell_shadows);
+        if list.cue.is_some() {
+            self.render(&self.cue, Shader::Painted, &|_| {}, camera);
+        }
+        let finish = Finish {
+            // Soft shadows lie on the cloth and are not in it.
+            shadows: if shadows == Shadows::Soft { 0 } else { shadow_number(shadows) },
+            has_detail: settings.cloth_detail,
+        };
+        if let Some(plan) = self.plan.as_ref().filter(|_| self.is_plain(settings)) {
+            let (frame, outer) = (self.plan_frame(), self.outer);
             let tell = |program: &Program| {
-                if program.requires_uniform("grain") {
-                    program.use_texture("grain", grain);
-                }
                 program.use_uniform_if_required("outer", outer);
-                program.use_uniform_if_required("line_and_d", line_and_d);
-                if program.requires_uniform("spots") {
-                    program.use_uniform_array("spots", spots);
+                program.use_uniform_if_required("plan_frame", frame);
+                if program.requires_uniform("plan") {
+                    program.use_texture("plan", plan);
                 }
             };
-            self.render(mesh, *shader, &tell, &camera);
+            for (kind, mesh) in &self.parts {
+                match *kind {
+                    FLOOR => self.render(mesh, Shader::PlanFloor, &tell, camera),
+                    // They are under what is seen from above.
+                    APRON | POCKET => {
+                        let tell = self.told(*kind, &tell_shadows);
+                        self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
+                    }
+                    _ => self.render(mesh, Shader::Plan, &tell, camera),
+                }
+            }
+        } else {
+            self.parts(finish, camera, &tell_shadows);
         }
-        for ball in &list.balls {
-            self.shadow(ball.position, ball.radius_m, &camera);
+        if shadows == Shadows::Soft {
+            self.balls.draw_contacts(list, camera, &self.facts, &self.pockets);
+            if let Some(cue) = &list.cue {
+                self.shade_cue(cue, camera);
+            }
         }
         for line in &list.lines {
-            self.line(line, &camera);
+            self.line(line, camera);
         }
         for ghost in &list.ghosts {
-            self.shadow(ghost.position, ghost.radius_m, &camera);
-            self.ghost(ghost, &camera);
+            self.ghost(ghost, camera);
         }
         for solid in &list.solids {
-            self.solid(solid, &camera);
+            self.solid(solid, camera);
         }
     }
 
-    fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &Camera) {
-        let material = Told { shader, tell, bed: self.bed };
+    /// Draws table and room, every pixel in its light.
+    fn parts(&self, finish: Finish, camera: &dyn Viewer, tell_shadows: &dyn Fn(&Program)) {
+        for (kind, mesh) in &self.parts {
+            let tell = self.told(*kind, tell_shadows);
+            self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
+        }
+    }
+
+    /// Tells the shader of a surface what there is on it.
+    fn told<'a>(&'a self, kind: u16, tell_shadows: &'a dyn Fn(&Program)) -> impl Fn(&Program) + 'a {
+        let grain = if kind < 2 { &self.nap } else { &self.wood };
+        move |program: &Program| {
+            if program.requires_uniform("grain") {
+                program.use_texture("grain", grain);
+            }
+            program.use_uniform_if_required("outer", self.outer);
+            program.use_uniform_if_required("line_and_d", self.line_and_d);
+            if program.requires_uniform("spots") {
+                program.use_uniform_array("spots", &self.spots.0);
+            }
+            program.use_uniform_if_required("spot_count", self.spots.1);
+            tell_shadows(program);
+        }
+    }
+
+    /// Whether the table is drawn from one picture of itself.
+    fn is_plain(&self, settings: &PictureSettings) -> bool {
+        self.facts.bed.x > 0.0 && settings.is_table_plain()
+    }
+
+    /// Half the length and width of what is in that picture [m].
+    fn plan_frame(&self) -> Vec2 {
+        self.outer + vec2(PLAN_MARGIN_M, PLAN_MARGIN_M)
+    }
+
+    /// The table from above.
+    fn seen_from_above(&self) -> Result<Texture2D, CoreError> {
+        let (edge, soft) = (Wrapping::ClampToEdge, Interpolation::Linear);
+        let (width, height) = PLAN;
+        let colour = Texture2D::new_empty::<[u8; 4]>(
+            &self.context,
+            width,
+            height,
+            soft,
+            soft,
+            None,
+            edge,
+            edge,
+        );
+        let depth = DepthTexture2D::new::<f32>(&self.context, width, height, edge, edge);
+        let eye = DownEye::from_above(self.plan_frame(), PLAN);
+        let target = RenderTarget::new(colour.as_color_target(None), depth.as_depth_target());
+        let [r, g, b] = BACKGROUND;
+        target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0)).write::<CoreError>(|| {
+            self.parts(Finish { shadows: 0, has_detail: false }, &eye, &|_| {});
+            Ok(())
+        })?;
+        drop(target);
+        Ok(colour)
+    }
+
+    fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &dyn Viewer) {
+        let material = Told { shader, tell, facts: self.facts };
         mesh.render_with_material(&material, camera, &[]);
     }
 
-    fn ball(&mut self, ball: &BallInstance, camera: &Camera) {
-        let centre = Vec3::from(ball.position);
-        let [x, y, z, w] = ball.orientation;
-        let turned = Mat3::from(Quat::new(w, x, y, z));
-        self.ball
-            .set_transformation(Mat4::from_translation(centre) * Mat4::from_scale(ball.radius_m));
-        let digits = &self.digits;
-        let tell = |program: &Program| {
-            program.use_uniform_if_required("centre", centre);
-            program.use_uniform_if_required("turned", turned);
-            program.use_uniform_if_required("paint", linear(ball.look.colour));
-            program.use_uniform_if_required("ivory", linear(ball_look(BallId::CUE).colour));
-            program.use_uniform_if_required("striped", f32::from(u8::from(ball.look.is_striped)));
-            let layer = ball.look.number.map_or(-1.0, |number| f32::from(number) - 1.0);
-            program.use_uniform_if_required("number", layer);
-            program.use_uniform_if_required("radius", ball.radius_m);
-            program.use_texture_array("digits", digits);
-        };
-        self.render(&self.ball, Shader::Ball, &tell, camera);
-    }
-
-    fn cue(&mut self, cue: &CuePose, camera: &Camera) {
-        let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
-        self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
-        self.render(&self.cue, Shader::Painted, &|_| {}, camera);
+    /// Darkens the cloth under a cue.
+    fn shade_cue(&self, cue: &CuePose, camera: &Camera) {
+        let (tip, along) = (cue.tip.as_vec3(), cue.direction.as_vec3());
+        let butt = tip - along * CUE_LENGTH_M as f32;
+        let middle = 0.5 * (tip + butt);
+        let ahead = 0.5 * (tip - butt).truncate();
+        let side = ahead.perp().normalize_or_zero() * CUE_SHADOW_M;
+        let ahead = ahead + ahead.normalize_or_zero() * CUE_SHADOW_M;
+        let program = &self.cue_shadow;
+        self.facts.tell(program, camera);
+        program.use_uniform("middle", vec3(middle.x, middle.y, CUE_SHADOW_LIFT_M));
+        program.use_uniform("along", vec2(ahead.x, ahead.y));
+        program.use_uniform("aside", vec2(side.x, side.y));
+        program.use_uniform("tip", vec4(tip.x, tip.y, tip.z, TIP_RADIUS_M as f32));
+        program.use_uniform("butt", vec4(butt.x, butt.y, butt.z, BUTT_RADIUS_M as f32));
+        program.use_uniform_array("pockets", &self.pockets);
+        program.use_vertex_attribute("position", &self.square_corners);
+        program.draw_arrays(darkening(), camera.viewport(), self.square_corners.vertex_count());
     }
 
     fn stylus(&mut self, stylus: &StylusPose, camera: &Camera) {
@@ -182,7 +330,7 @@ impl Stage {
     fn solid(&mut self, solid: &Solid, camera: &Camera) {
         let (from, way) = (Vec3::from(solid.from), Vec3::from(solid.to) - Vec3::from(solid.from));
         let mesh = match solid.shape {
-            SolidShape::Ball => &mut self.ball,
+            SolidShape::Ball => &mut self.ghost,
             SolidShape::Cylinder => &mut self.cylinder,
             SolidShape::Cone => &mut self.cone,
         };
@@ -194,7 +342,7 @@ impl Stage {
         };
         mesh.set_transformation(placed);
         let mesh: &Mesh = match solid.shape {
-            SolidShape::Ball => &self.ball,
+            SolidShape::Ball => &self.ghost,
             SolidShape::Cylinder => &self.cylinder,
             SolidShape::Cone => &self.cone,
         };
@@ -206,25 +354,6 @@ impl Stage {
         };
         let shader = if solid.is_over { Shader::Over } else { Shader::Plain };
         self.render(mesh, shader, &tell, camera);
-    }
-
-    fn shadow(&mut self, position: [f32; 3], radius_m: f32, camera: &Camera) {
-        let centre = Vec3::from(position);
-        // A ball in the air, or on its way down a pocket, throws none that is worth drawing.
-        if centre.z < 0.5 * radius_m || 6.0 * radius_m < centre.z {
-            return;
-        }
-        self.square.set_transformation(
-            Mat4::from_translation(vec3(centre.x, centre.y, SHADOW_LIFT_M))
-                * Mat4::from_scale(SHADOW_REACH * radius_m),
-        );
-        let pockets = self.pockets;
-        let tell = |program: &Program| {
-            program.use_uniform_if_required("centre", centre);
-            program.use_uniform_if_required("radius", radius_m);
-            program.use_uniform_array("pockets", &pockets);
-        };
-        self.render(&self.square, Shader::Shadow, &tell, camera);
     }
 
     fn line(&mut self, line: &Line, camera: &Camera) {
@@ -244,10 +373,10 @@ impl Stage {
     }
 
     fn ghost(&mut self, ghost: &GhostBall, camera: &Camera) {
-        self.ball.set_transformation(
+        self.ghost.set_transformation(
             Mat4::from_translation(ghost.position.into()) * Mat4::from_scale(ghost.radius_m),
         );
-        self.plain(&self.ball, ghost.colour, 1.0, camera);
+        self.plain(&self.ghost, ghost.colour, 1.0, camera);
     }
 
     fn plain(&self, mesh: &Mesh, colour: [f32; 4], rim: f32, camera: &Camera) {
@@ -260,31 +389,21 @@ impl Stage {
     }
 }
 
-/// What the cloth's shader paints: the line across with the D behind it, and six spots, of which
-/// some may be the same.
-fn marks(marks: &ClothMarks) -> (Vec2, [Vec2; 6]) {
-    let first = marks.spots.first().copied().unwrap_or_default().as_vec2();
-    let mut spots = [vec2(first.x, first.y); 6];
-    for (place, spot) in spots.iter_mut().zip(&marks.spots) {
-        *place = vec2(spot.x as f32, spot.y as f32);
+/// What is there already is multiplied by what is drawn.
+pub fn darkening() -> RenderStates {
+    RenderStates {
+        write_mask: WriteMask::COLOR,
+        blend: Blend::Enabled {
+            source_rgb_multiplier: BlendMultiplierType::Zero,
+            source_alpha_multiplier: BlendMultiplierType::Zero,
+            destination_rgb_multiplier: BlendMultiplierType::SrcColor,
+            destination_alpha_multiplier: BlendMultiplierType::One,
+            rgb_equation: BlendEquationType::Add,
+            alpha_equation: BlendEquationType::Add,
+        },
+        cull: Cull::Back,
+        ..RenderStates::default()
     }
-    let d_radius_m = marks.d_radius_m.unwrap_or(0.0);
-    // No line is one that lies beyond every table.
-    let line_x_m = marks.line_x_m.unwrap_or(-1e3);
-    (vec2(line_x_m as f32, d_radius_m as f32), spots)
-}
-
-/// From a body along +x to one at `at` along a unit vector, longer and wider by these factors.
-fn laid(at: Vec3, along: Vec3, length: f32, width: f32) -> Mat4 {
-    let side = vec3(0.0, 0.0, 1.0).cross(along);
-    let side = if side.magnitude2() < 1e-6 { vec3(0.0, 1.0, 0.0) } else { side.normalize() };
-    let up = along.cross(side);
-    Mat4::from_cols(
-        (along * length).extend(0.0),
-        (side * width).extend(0.0),
-        (up * width).extend(0.0),
-        at.extend(1.0),
-    )
 }
 
 fn kind(made: Made) -> u16 {
@@ -301,10 +420,6 @@ fn kind(made: Made) -> u16 {
     }
 }
 
-fn linear(srgb: [f32; 3]) -> Vec3 {
-    Vec3::from(srgb.map(|channel| channel.powf(2.2)))
-}
-
 fn camera(pose: &CameraPose, viewport: Viewport) -> Camera {
     let (eye, target) = (pose.eye.as_vec3(), pose.target.as_vec3());
     Camera::new_perspective(
@@ -316,49 +431,4 @@ fn camera(pose: &CameraPose, viewport: Viewport) -> Camera {
         0.05,
         25.0,
     )
-}
-
-fn vectors(triples: &[[f32; 3]]) -> Vec<Vec3> {
-    triples.iter().map(|triple| Vec3::from(*triple)).collect()
-}
-
-fn part_mesh(part: &DisplayPart) -> CpuMesh {
-    CpuMesh {
-        positions: Positions::F32(vectors(&part.positions)),
-        normals: Some(vectors(&part.normals)),
-        uvs: Some(part.uvs.iter().map(|uv| vec2(uv[0], uv[1])).collect()),
-        indices: Indices::U32(part.indices.clone()),
-        ..CpuMesh::default()
-    }
-}
-
-fn shape_mesh(shape: &Shape) -> CpuMesh {
-    let byte = |channel: f32| (channel * 255.0).round() as u8;
-    let colours = shape.colours.iter().map(|&[r, g, b]| Srgba::new(byte(r), byte(g), byte(b), 255));
-    CpuMesh {
-        positions: Positions::F32(vectors(&shape.positions)),
-        normals: Some(vectors(&shape.normals)),
-        colors: (!shape.colours.is_empty()).then(|| colours.collect()),
-        indices: Indices::U32(shape.indices.clone()),
-        ..CpuMesh::default()
-    }
-}
-
-fn square() -> CpuMesh {
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    CpuMesh {
-        positions: Positions::F32(corners.iter().map(|&(x, y)| vec3(x, y, 0.0)).collect()),
-        normals: Some(vec![vec3(0.0, 0.0, 1.0); 4]),
-        indices: Indices::U32(vec![0, 1, 2, 0, 2, 3]),
-        ..CpuMesh::default()
-    }
-}
-
-fn ground(height: f32) -> CpuMesh {
-    let mut mesh = square();
-    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-    let places = corners.map(|(x, y)| vec3(x * GROUND_M, y * GROUND_M, height));
-    mesh.uvs = Some(places.iter().map(|p| vec2(p.x, p.y)).collect());
-    mesh.positions = Positions::F32(places.to_vec());
-    mesh
 }

@@ -10,6 +10,7 @@ use crate::input::PadDriver;
 use crate::pacer::StopFlag;
 use hapticbillard::input::Bindings;
 use hapticbillard::menu::{Begin, Menu, Settings};
+use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::DrawList;
 use hapticbillard::rules::Language;
 use hapticbillard::table::Table;
@@ -17,8 +18,7 @@ use hapticbillard::tick::Finished;
 use std::panic;
 use std::path::PathBuf;
 use std::sync::Arc;
-use three_d::context::{HasContext, RENDERER};
-use three_d::{Context, SurfaceSettings, WindowedContext};
+use three_d::{SurfaceSettings, WindowedContext};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::{EventLoop, EventLoopBuilder};
 use winit::platform::run_return::EventLoopExtRunReturn;
@@ -35,6 +35,8 @@ pub struct WindowSetup {
     pub title: String,
     /// Size of the picture [pixels].
     pub size: (u32, u32),
+    /// How pictures are drawn where there are no menus to set it.
+    pub picture: PictureSettings,
     /// The language of the player's system.
     pub language: Language,
     /// Ends everything between two ticks.
@@ -144,21 +146,9 @@ fn open(setup: &WindowSetup) -> Result<(EventLoop<GameEnded>, Window), NoWindow>
     Ok((events, window))
 }
 
-/// OpenGL in the window: smooth edges from a graphics card, plain ones from a processor.
-fn graphics(window: &Window) -> Result<WindowedContext, NoWindow> {
-    let smooth = SurfaceSettings { vsync: false, multisamples: 4, ..SurfaceSettings::default() };
-    let plain = SurfaceSettings { multisamples: 0, ..smooth };
-    let make = |settings| WindowedContext::from_winit_window(window, settings);
-    match make(smooth) {
-        Ok(context) if !is_software(&context) => return Ok(context),
-        Ok(_) | Err(_) => {}
-    }
-    make(plain).map_err(|error| NoWindow(format!("no OpenGL: {error}")))
-}
-
-#[allow(unsafe_code)]
-fn is_software(context: &Context) -> bool {
-    // SAFETY: the context was just made current on this thread; reading a string changes nothing.
-    let name = unsafe { context.get_parameter_string(RENDERER) }.to_lowercase();
-    ["llvmpipe", "softpipe", "swrast", "software"].iter().any(|word| name.contains(word))
+/// OpenGL in the window. Smooth edges are drawn beside it, so that they can be switched.
+pub(super) fn graphics(window: &Window) -> Result<WindowedContext, NoWindow> {
+    let plain = SurfaceSettings { vsync: false, multisamples: 0, ..SurfaceSettings::default() };
+    WindowedContext::from_winit_window(window, plain)
+        .map_err(|error| NoWindow(format!("no OpenGL: {error}")))
 }

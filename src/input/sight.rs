@@ -62,7 +62,7 @@ pub(super) fn elevation_needed(
 
 /// Where the cue ball's middle is when it meets the first ball or cushion on its straight way
 /// [m], and which way the ball that is met leaves; zero if it meets a cushion.
-pub(crate) fn ghost(
+pub fn ghost(
     table: &Snapshot,
     bed: Option<&Bed>,
     cue_ball: BallId,

@@ -3,6 +3,7 @@
 use crate::ids::PlayerId;
 use crate::input::{AimAid, Steering};
 use crate::one_line::one_line;
+use crate::picture::{PictureOption, PictureSettings, Preset};
 use crate::rules::Language;
 use crate::scene::{Entrant, PlayerKind, STRENGTH_MAX, STRENGTH_USUAL};
 use crate::shipped;
@@ -52,6 +53,8 @@ pub struct Settings {
     pub rumble: bool,
     /// Whoever plays was told of the tutorial.
     pub welcomed: bool,
+    /// How pictures are drawn.
+    pub picture: PictureSettings,
 }
 
 impl Default for Settings {
@@ -73,6 +76,7 @@ impl Default for Settings {
             steering: Steering::ByPlace,
             rumble: true,
             welcomed: false,
+            picture: PictureSettings::default(),
         }
     }
 }
@@ -312,11 +316,15 @@ pub enum Setting {
     Steering,
     /// Whether a gamepad shakes with contacts.
     Rumble,
+    /// How much pictures may cost, all at once.
+    Preset,
+    /// One thing of how pictures are drawn.
+    Picture(PictureOption),
 }
 
 impl Setting {
-    /// All.
-    pub const ALL: [Setting; 15] = [
+    /// All but those of pictures.
+    const PLAIN: [Setting; 16] = [
         Setting::Game,
         Setting::Table,
         Setting::PlayerOne,
@@ -332,7 +340,13 @@ impl Setting {
         Setting::Haptic,
         Setting::Steering,
         Setting::Rumble,
+        Setting::Preset,
     ];
+
+    /// All.
+    pub fn all() -> impl Iterator<Item = Setting> {
+        Setting::PLAIN.into_iter().chain(PictureOption::ALL.map(Setting::Picture))
+    }
 }
 
 /// What a setting can be: numbered places, from 0.
@@ -370,7 +384,9 @@ impl Settings {
     /// # Errors
     /// One line: what is wrong, and where.
     pub fn parse(text: &str) -> Result<Self, String> {
-        toml::from_str(text).map_err(|error| one_line(error.to_string().trim_end(), 400))
+        let read: Self =
+            toml::from_str(text).map_err(|error| one_line(error.to_string().trim_end(), 400))?;
+        Ok(Settings { picture: read.picture.sound(), ..read })
     }
 
     /// As TOML.
@@ -398,6 +414,11 @@ impl Settings {
             Setting::AimAid => Range::Choice(AimAid::ALL.len()),
             Setting::Haptic => Range::Choice(HapticChoice::ALL.len()),
             Setting::Steering => Range::Choice(Steering::ALL.len()),
+            Setting::Preset => Range::Choice(Preset::ALL.len()),
+            Setting::Picture(option) => match option {
+                PictureOption::RenderScale => Range::Scale(option.values().len() - 1),
+                _ => Range::Choice(option.values().len()),
+            },
         }
     }
 
@@ -423,6 +444,11 @@ impl Settings {
             Setting::AimAid => place(&AimAid::ALL, &self.aim_aid),
             Setting::Haptic => place(&HapticChoice::ALL, &self.haptic),
             Setting::Steering => place(&Steering::ALL, &self.steering),
+            Setting::Preset => {
+                // What nobody chose so stands before the first.
+                Preset::of(&self.picture).map_or(0, |preset| place(&Preset::ALL, &preset))
+            }
+            Setting::Picture(option) => self.picture.place(option),
         }
     }
 
@@ -447,6 +473,8 @@ impl Settings {
             Setting::AimAid => self.aim_aid = AimAid::ALL[place],
             Setting::Haptic => self.haptic = HapticChoice::ALL[place],
             Setting::Steering => self.steering = Steering::ALL[place],
+            Setting::Preset => self.picture = Preset::ALL[place].applied(self.picture),
+            Setting::Picture(option) => self.picture.put(option, place),
         }
     }
 

@@ -31,11 +31,12 @@ pub struct Radii {
     balls: Vec<(BallId, f64)>,
     tip_m: f64,
     set: BallSet,
+    is_marked: bool,
 }
 
 impl Default for Radii {
     fn default() -> Self {
-        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M, set: BallSet::Pool }
+        Radii { balls: Vec::new(), tip_m: TIP_RADIUS_M, set: BallSet::Pool, is_marked: false }
     }
 }
 
@@ -57,6 +58,16 @@ impl Radii {
     #[must_use]
     pub fn with_set(self, set: BallSet) -> Self {
         Radii { set, ..self }
+    }
+
+    /// Balls are told apart without their colours from now on, or by them.
+    pub fn mark(&mut self, is_marked: bool) {
+        self.is_marked = is_marked;
+    }
+
+    /// How a ball looks.
+    pub fn look(&self, id: BallId) -> BallLook {
+        if self.is_marked { self.set.marked_look(id) } else { self.set.look(id) }
     }
 
     /// The radius of a ball [m]; a pool ball's if nobody said.
@@ -276,7 +287,7 @@ impl DrawList {
             let radius_m = radii.of(way.ball);
             let [r, g, b] = match way.ball == cue_ball {
                 true => [1.0, 1.0, 1.0],
-                false => radii.set.look(way.ball).colour.map(|channel| 0.25 + 0.75 * channel),
+                false => radii.look(way.ball).colour.map(|channel| 0.25 + 0.75 * channel),
             };
             for pair in way.points.windows(2) {
                 self.line(pair[0], pair[1], radius_m, [r, g, b, 0.75]);
@@ -291,7 +302,7 @@ impl DrawList {
     fn show_placing(&mut self, view: &HumanView, radii: &Radii) {
         let Some(at) = view.placing else { return };
         let radius_m = radii.of(view.placing_ball);
-        let [r, g, b] = radii.set.look(view.placing_ball).colour;
+        let [r, g, b] = radii.look(view.placing_ball).colour;
         let colour = match (view.placing_allowed, view.placing_ball) {
             (false, _) => [0.95, 0.2, 0.15, 0.6],
             (true, BallId::CUE) => [1.0, 1.0, 0.96, 0.85],
@@ -347,7 +358,7 @@ pub(super) fn held(cue: CuePose, tip_m: f64) -> CuePose {
 fn instance(ball: &BallState, radii: &Radii) -> BallInstance {
     BallInstance {
         id: ball.id,
-        look: radii.set.look(ball.id),
+        look: radii.look(ball.id),
         position: ball.position.as_vec3().to_array(),
         orientation: (ball.orientation * tossed(ball.id)).as_quat().to_array(),
         radius_m: radii.of(ball.id) as f32,

@@ -13,6 +13,8 @@ pub struct BallLook {
     pub is_striped: bool,
     /// The number in the discs; none for balls without discs.
     pub number: Option<u16>,
+    /// There are discs at ±y and ±z too, so that one is seen however the ball lies.
+    pub has_six: bool,
 }
 
 /// The balls of a game.
@@ -46,6 +48,33 @@ impl BallSet {
             BallSet::Carom => carom_look(ball),
         }
     }
+
+    /// The look of one of its balls for somebody who does not tell colours apart: other colours,
+    /// each of another brightness where that can be, and a number that is seen from everywhere.
+    /// What has no number has its points, or in carom 1 for the yellow ball and 2 for the red one.
+    pub fn marked_look(self, ball: BallId) -> BallLook {
+        let usual = self.look(ball);
+        let number = match (self, ball.0) {
+            (BallSet::Pool, _) => usual.number,
+            (BallSet::Snooker, 1..=15) => Some(1),
+            (BallSet::Snooker, 16..=21) => Some(ball.0 - 14),
+            (BallSet::Carom, 1 | 2) => Some(ball.0),
+            _ => None,
+        };
+        let colour = match (self, ball.0) {
+            // After Okabe and Ito (2008), Color Universal Design; for pool in the order of the
+            // usual colours.
+            (BallSet::Pool, 1 | 9) => [0.94, 0.89, 0.26],
+            (BallSet::Pool, 2 | 10) => [0.0, 0.45, 0.70],
+            (BallSet::Pool, 3 | 11) => [0.84, 0.37, 0.0],
+            (BallSet::Pool, 4 | 12) => [0.80, 0.47, 0.65],
+            (BallSet::Pool, 5 | 13) => [0.90, 0.62, 0.0],
+            (BallSet::Pool, 6 | 14) => [0.0, 0.62, 0.45],
+            (BallSet::Pool, 7 | 15) => [0.34, 0.71, 0.91],
+            _ => usual.colour,
+        };
+        BallLook { colour, number, has_six: number.is_some(), ..usual }
+    }
 }
 
 /// The look of a snooker ball: 1 to 15 are red; yellow, green, brown, blue, pink, black follow.
@@ -60,7 +89,7 @@ fn snooker_look(ball: BallId) -> BallLook {
         21 => [0.025, 0.025, 0.03],
         _ => IVORY,
     };
-    BallLook { colour, is_striped: false, number: None }
+    BallLook { colour, is_striped: false, number: None, has_six: false }
 }
 
 /// The look of a carom ball: 1 is yellow, 2 red, the others are white.
@@ -70,7 +99,7 @@ fn carom_look(ball: BallId) -> BallLook {
         2 => [0.72, 0.03, 0.05],
         _ => IVORY,
     };
-    BallLook { colour, is_striped: false, number: None }
+    BallLook { colour, is_striped: false, number: None, has_six: false }
 }
 
 /// Ivory, in sRGB.
@@ -94,5 +123,6 @@ pub fn ball_look(ball: BallId) -> BallLook {
         colour,
         is_striped: (9..=15).contains(&ball.0),
         number: is_numbered.then_some(ball.0),
+        has_six: false,
     }
 }

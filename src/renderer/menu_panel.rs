@@ -4,6 +4,7 @@ use super::Words;
 use crate::ids::PlayerId;
 use crate::input::{AimAid, Steering};
 use crate::menu::{Effect, Item, Menu, Notice, Pointed, Range, Seat, Setting, Settings};
+use crate::picture::{PictureOption, Preset};
 
 /// A page of a menu, in words.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,6 +142,29 @@ fn value(settings: &Settings, setting: Setting, words: &Words) -> String {
         }),
         Setting::FullScreen => words.get(if settings.full_screen { "on" } else { "off" }),
         Setting::Rumble => words.get(if settings.rumble { "on" } else { "off" }),
+        Setting::Preset => {
+            words.get(Preset::of(&settings.picture).map_or("preset_own", Preset::key))
+        }
+        Setting::Picture(option) => {
+            let value = settings.picture.value(option);
+            match option {
+                PictureOption::RenderScale | PictureOption::HudScale => {
+                    words.fill("percent", "value", value)
+                }
+                // Numbers are the same in every language.
+                _ if value.parse::<u16>().is_ok() => value.into(),
+                _ => words.get(&picture_key(option, value)),
+            }
+        }
+    }
+}
+
+/// The key of what an option can be; most say no more than on and off.
+fn picture_key(option: PictureOption, value: &str) -> String {
+    match (option, value) {
+        (PictureOption::FrameLimit, "off") => String::from("unlimited"),
+        (_, "on" | "off" | "auto") => value.into(),
+        _ => format!("{}_{value}", option.key()),
     }
 }
 

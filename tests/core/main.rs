@@ -38,6 +38,8 @@ mod minigolf;
 mod physics;
 /// The laws that a scene chooses.
 mod physics_laws;
+/// How pictures are drawn: options, presets, levels of detail, eyes, films.
+mod picture;
 /// What follows from a verdict in the pool games.
 mod pool_rules;
 /// Racks: order of the balls, gaps, spotting.

@@ -109,7 +109,7 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
         let mut menu = menu();
         for name in ["mode", "options"] {
             menu.open(name);
-            for setting in Setting::ALL {
+            for setting in Setting::all() {
                 for place in 0..places(setting) {
                     menu.settings.put(setting, place);
                     let panel = MenuPanel::new(&menu, words).unwrap();
@@ -124,7 +124,7 @@ fn every_word_of_the_menus_is_there_in_both_languages() {
 #[test]
 fn every_place_of_every_setting_is_kept() {
     let mut settings = Settings::default();
-    for setting in Setting::ALL {
+    for setting in Setting::all() {
         for place in (0..places(setting)).rev() {
             settings.put(setting, place);
             assert_eq!(settings.place(setting), place, "{setting:?}");

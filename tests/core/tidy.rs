@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
 const LAYERS: [&[&str]; 17] = [
-    &["units", "ids", "hash", "ball", "mesh", "cue", "events", "shipped", "one_line"],
+    &["units", "ids", "hash", "ball", "mesh", "cue", "events", "picture", "shipped", "one_line"],
     &["table", "rack"],
     &["physics"],
     // A scene holds the settings of the physics that it asks for.

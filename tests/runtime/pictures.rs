@@ -1,10 +1,14 @@
 //! Pictures without a window, at small sizes.
 
+mod options;
+mod references;
+
 use glam::{DVec2, DVec3};
 use hapticbillard::events::{FactSet, IdeaKind, Insight, Prospect, Way, WayEnd};
 use hapticbillard::ids::{BallId, PlayerId, PocketId};
 use hapticbillard::input::{CameraPose, HumanView};
 use hapticbillard::physics::Snapshot;
+use hapticbillard::picture::{PictureSettings, Smoothing};
 use hapticbillard::renderer::{
     BallInstance, DrawList, Hud, Radii, ThoughtsPanel, Words, ball_look, draw_thoughts,
 };
@@ -12,20 +16,24 @@ use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
-use hapticbillard_actors::renderer::{number_layer, pixels, written};
+use hapticbillard_actors::renderer::{Studio, number_layer};
 use smallvec::smallvec;
 
 const SIZE: (u32, u32) = (320, 200);
 
 /// The picture, or nothing where this machine cannot draw.
 fn picture(table: &Table, list: &DrawList) -> Option<Vec<[u8; 4]>> {
-    match pixels(table, list, SIZE) {
-        Ok(pixels) => Some(pixels),
-        Err(error) => {
-            println!("skipped: {error}");
-            None
-        }
-    }
+    Some(studio(table)?.pixels(list, &smooth(), SIZE).unwrap())
+}
+
+/// Where pictures are made, or nothing where this machine cannot draw.
+fn studio(table: &Table) -> Option<Studio> {
+    Studio::new(table).inspect_err(|error| println!("skipped: {error}")).ok()
+}
+
+/// As shipped, with smooth edges.
+fn smooth() -> PictureSettings {
+    PictureSettings { smooth: Smoothing::On, ..PictureSettings::default() }
 }
 
 fn at(pixels: &[[u8; 4]], x: u32, y: u32) -> [i32; 3] {
@@ -95,8 +103,8 @@ fn numbers_are_not_mirrored_and_stand_upright() {
     let list = from_above(0.24, vec![lying(7, up.to_array())]);
     let Some(pixels) = picture(&table, &list) else { return };
     // The ink of the picture against that of the texture, as it is and turned over.
-    let layer = number_layer(7);
     let side = 128;
+    let layer = number_layer(7, side as u32);
     let (mut plain, mut mirrored, mut upside) = (0, 0, 0);
     for y in -12i32..=12 {
         for x in -12i32..=12 {
@@ -160,12 +168,10 @@ fn chances_stand_on_the_table_and_their_panel_beside_it() {
     let (texts, words) = (Texts::new(Language::English), Words::new(Language::English));
     let panel = ThoughtsPanel::new(&insight, "Ann", &texts, &words);
     let hud = Hud { thoughts: Some(panel), ..Hud::default() };
-    let (Ok(with), Ok(without)) = (
-        written(&table, &list, &hud, SIZE),
-        written(&table, &DrawList { labels: Vec::new(), ..list.clone() }, &Hud::default(), SIZE),
-    ) else {
-        return;
-    };
+    let Some(mut studio) = studio(&table) else { return };
+    let plain = DrawList { labels: Vec::new(), ..list.clone() };
+    let with = studio.written(&list, &hud, &smooth(), SIZE).unwrap();
+    let without = studio.pixels(&plain, &smooth(), SIZE).unwrap();
     let differ = |x: u32, y: u32| at(&with, x, y) != at(&without, x, y);
     // Where the label of the 3 stands, by the same perspective as everything on the table.
     let [x, y, z] = list.labels.iter().find(|label| label.is_bold).unwrap().at.map(f64::from);

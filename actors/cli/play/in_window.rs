@@ -151,8 +151,11 @@ fn window(stage: &Stage, menu: Option<Menu>, begins: bool) -> WindowSetup {
         None => format!("HapticBillard: {}", stage.scene.about.name),
         Some(_) => "HapticBillard".to_string(),
     };
+    // Without menus pictures are as they were set in the last game with some.
+    let picture = menu.as_ref().map_or_else(|| Kept::load().0.picture, |m| m.settings.picture);
     WindowSetup {
         title,
+        picture,
         size: renderer.map_or((1280, 720), |section| (section.width, section.height)),
         fullscreen: renderer.is_some_and(|section| section.fullscreen),
         language: language(),

@@ -153,7 +153,9 @@ impl Desk<'_> {
         let (x, y) = self.place()?;
         let (_, hud) = self.shown.as_ref()?;
         let size = self.window.inner_size();
-        hud::option_at(hud, (size.width as f32, size.height as f32), (x as f32, y as f32))
+        let scale = f32::from(self.picture_settings().hud_scale) / 100.0;
+        let size = (size.width as f32, size.height as f32);
+        hud::option_at(hud, size, scale, (x as f32, y as f32))
     }
 
     /// While time stands still, something is to be chosen or no game goes on, the pointer belongs

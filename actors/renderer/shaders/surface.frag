@@ -1,4 +1,4 @@
-// Everything of a table and its room. KIND is set before this text.
+// Everything of a table and its room. KIND and DETAIL are set before this text.
 
 in vec3 pos;
 in vec3 nor;
@@ -9,7 +9,29 @@ uniform vec2 outer;
 // x of the line across the bed, and the radius of the D behind it; 0 without.
 uniform vec2 line_and_d;
 uniform vec2 spots[6];
+uniform int spot_count;
 layout (location = 0) out vec4 colour;
+
+#if KIND < 2
+// The nap of the cloth. From afar it is not seen (paper, section 4.3.4).
+float nap(vec3 at) {
+#if DETAIL
+    float left = 1.0 - smoothstep(1.2, 3.2, distance(at, eye));
+    return mix(0.5, texture(grain, uvs * 3.4).r, left);
+#else
+    return 0.5;
+#endif
+}
+#endif
+
+// The grain of wood.
+float wooden(vec2 scale) {
+#if DETAIL || KIND < 8
+    return texture(grain, uvs * scale).r;
+#else
+    return 0.5;
+#endif
+}
 
 void main() {
     vec3 n = normalize(nor);
@@ -19,8 +41,7 @@ void main() {
     float open = 1.0;
 #if KIND == 0
     // Cloth: a fine nap, darker under the cushions.
-    float nap = texture(grain, uvs * 2.2).r;
-    albedo = vec3(0.012, 0.205, 0.098) * (0.86 + 0.28 * nap);
+    albedo = vec3(0.012, 0.205, 0.098) * (0.86 + 0.28 * nap(pos));
     vec2 inside = bed - abs(pos.xy);
     // The line across, the D and the spots, never thinner than the picture can show.
     float wide = max(fwidth(pos.x), fwidth(pos.y));
@@ -31,26 +52,26 @@ void main() {
     }
     float line = (1.0 - smoothstep(0.0008, 0.0008 + wide, off))
         * step(0.0, inside.y) * min(1.0, 0.0035 / wide);
-    float away_from_spot = 1e3;
-    for (int i = 0; i < 6; ++i) {
-        away_from_spot = min(away_from_spot, length(pos.xy - spots[i]));
+    float square = 1e3;
+    for (int i = 0; i < spot_count; ++i) {
+        vec2 away = pos.xy - spots[i];
+        square = min(square, dot(away, away));
     }
-    float spot = 1.0 - smoothstep(0.006, 0.006 + wide, away_from_spot);
+    float spot = 1.0 - smoothstep(0.006, 0.006 + wide, sqrt(square));
     albedo = mix(albedo, vec3(0.50, 0.60, 0.50), bed.x > 0.0 ? max(0.6 * line, 0.8 * spot) : 0.0);
     if (bed.x > 0.0) {
         open = mix(0.42, 1.0, smoothstep(-0.012, 0.055, min(inside.x, inside.y)));
         open *= 0.15 + 0.85 * smoothstep(-0.03, -0.001, pos.z);
     }
 #elif KIND == 1
-    float nap = texture(grain, uvs * 2.2).r;
-    albedo = vec3(0.010, 0.170, 0.082) * (0.86 + 0.28 * nap);
+    albedo = vec3(0.010, 0.170, 0.082) * (0.86 + 0.28 * nap(pos));
     open = mix(0.35, 1.0, smoothstep(-0.005, 0.03, pos.z));
 #elif KIND == 2
-    float wood = texture(grain, uvs * vec2(0.8, 3.0)).r;
+    float wood = wooden(vec2(0.8, 3.0));
     albedo = mix(vec3(0.075, 0.022, 0.010), vec3(0.30, 0.115, 0.045), wood);
     gloss = 0.32;
 #elif KIND == 3
-    float wood = texture(grain, uvs * vec2(0.8, 3.0)).r;
+    float wood = wooden(vec2(0.8, 3.0));
     albedo = mix(vec3(0.040, 0.012, 0.006), vec3(0.150, 0.055, 0.024), wood);
     gloss = 0.15;
     open = 0.75;
@@ -67,7 +88,7 @@ void main() {
     albedo = vec3(0.52, 0.62, 0.52);
 #else
     // Floor boards, in the table's shadow below it.
-    float wood = texture(grain, uvs * vec2(0.45, 2.2)).r;
+    float wood = wooden(vec2(0.45, 2.2));
     float board = fract(uvs.y / 0.14);
     float joint = smoothstep(0.0, 0.03, board) * smoothstep(1.0, 0.97, board);
     float tint = 0.8 + 0.4 * fract(sin(floor(uvs.y / 0.14) * 12.9898) * 43758.5453);
@@ -76,7 +97,7 @@ void main() {
     vec2 away = max(abs(pos.xy) - outer, 0.0);
     open = mix(0.10, 0.62, smoothstep(0.0, 0.9, length(away)));
 #endif
-    vec3 light = albedo * received(pos, n) * open;
+    vec3 light = albedo * received(pos, n, seen_of_lamps(pos, n)) * open;
     if (gloss > 0.0) {
         float rim = 1.0 - max(dot(n, v), 0.0);
         float fresnel = 0.045 + 0.5 * rim * rim * rim * rim;

@@ -10,7 +10,7 @@ pub fn run(data: &[u8]) {
         Err(problem) => return check_line(&problem),
     };
     assert_eq!(Settings::parse(&settings.to_toml()).as_ref(), Ok(&settings));
-    for setting in Setting::ALL {
+    for setting in Setting::all() {
         let place = settings.place(setting);
         let last = Settings::range(setting).last();
         assert!(place <= last, "{setting:?}: {place}");

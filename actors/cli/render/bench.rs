@@ -1,0 +1,143 @@
+//! `hapticbillard bench-render`: the paper's tables of frames per second (section 4.4.1).
+
+use super::super::{Status, json_line, not_negative, progress, size};
+use clap::Args;
+use hapticbillard_actors::error::Error;
+use std::io::Write;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "\
+As in the paper: a shot that is the same every time, the whole table in the picture, neither limit nor
+smooth edges, and settings that touch the balls only; then the presets. Every row is measured in
+turn, again and again, so that a busy machine is not busy for one of them alone. A picture counts
+from its begin until the graphics card has drawn it; it is not shown.
+
+Examples:
+  hapticbillard bench-render --out bench.md
+  hapticbillard bench-render --size 640x400 --rounds 5 --json";
+
+/// Measures how long pictures take with which settings: the paper's tables.
+#[derive(Debug, Clone, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct BenchRenderArgs {
+    /// A shipped scene (see `scenes`) or a scene file whose balls roll.
+    #[arg(long, value_name = "SCENE", default_value = "break_shot")]
+    pub scene: String,
+
+    /// Size of the pictures in pixels; the paper's unless it is said.
+    #[arg(long, value_name = "WxH", default_value = "1440x900", value_parser = size)]
+    pub size: (u32, u32),
+
+    /// How often every row is measured.
+    #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u32).range(1..))]
+    pub rounds: u32,
+
+    /// Pictures of a row in a round.
+    #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
+    pub frames: u32,
+
+    /// Seconds of the game that the pictures are spread over.
+    #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = not_negative)]
+    pub seconds: f64,
+
+    /// Measures only rows whose name has this in it, as in `medium` or `volumes`.
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+
+    /// Writes the tables as Markdown into this file.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+
+    /// Prints a JSON line per row in place of the tables.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Measures.
+#[cfg(feature = "renderer")]
+pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    use hapticbillard::events::FactSet;
+    use hapticbillard::input::HumanView;
+    use hapticbillard::picture::{BenchRow, Environment, FrameTimes, bench_markdown, bench_rows};
+    use hapticbillard::renderer::{DrawList, Radii};
+    use hapticbillard_actors::files::{load_scene, write_whole};
+    use hapticbillard_actors::game::Stage;
+    use hapticbillard_actors::renderer::Studio;
+
+    let stage = Stage::new(&load_scene(&args.scene)?, &args.scene)?;
+    let balls = stage.scene.build_balls(&stage.table)?;
+    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_set(stage.scene.equipment().into());
+    let mut simulation = stage.simulation()?;
+    let mut lists = Vec::new();
+    for frame in 0..args.frames {
+        let at = args.seconds * f64::from(frame) / f64::from(args.frames);
+        simulation.advance(at, FactSet::NONE, &mut Vec::new())?;
+        let world = simulation.snapshot(at);
+        lists.push(DrawList::new(&world, &HumanView::default(), &radii));
+    }
+    let mut studio = Studio::new(&stage.table)?;
+    let device = studio.card();
+    let only = args.only.as_deref().unwrap_or_default();
+    let rows: Vec<_> = bench_rows().into_iter().filter(|row| row.name().contains(only)).collect();
+    if rows.is_empty() {
+        let names: Vec<String> = bench_rows().iter().map(BenchRow::name).collect();
+        let problem = format!("no row has '{only}' in its name");
+        return Err(Error::input("--only", problem, format!("rows are {}", names.join("; "))));
+    }
+    let mut times = vec![Vec::new(); rows.len()];
+    let bar = progress(u64::from(args.rounds) * rows.len() as u64, "measuring");
+    for _ in 0..args.rounds {
+        for (row, times) in rows.iter().zip(&mut times) {
+            // Shaders, textures and targets are there before it counts.
+            for list in lists.iter().take(2) {
+                studio.timed(list, &row.settings, args.size)?;
+            }
+            for list in &lists {
+                times.push(studio.timed(list, &row.settings, args.size)?);
+            }
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    let measured: Vec<_> = rows
+        .iter()
+        .zip(&times)
+        .filter_map(|(row, times)| Some((*row, FrameTimes::of(times)?)))
+        .collect();
+    let text = bench_markdown(&measured, &device, args.size);
+    if let Some(path) = &args.out {
+        write_whole(path, text.as_bytes())?;
+    }
+    if !args.json {
+        write!(out, "{text}")?;
+        return Ok(Status::Success);
+    }
+    for (row, times) in &measured {
+        let settings = &row.settings;
+        json_line(
+            out,
+            &serde_json::json!({
+                "shadows": settings.shadows,
+                "triangles": settings.triangles,
+                "texture": settings.texture,
+                "environment": settings.environment != Environment::Off,
+                "normal_map": settings.normal_map,
+                "frame_ms": times,
+                "fps_2009": row.fps_2009,
+                "preset": row.preset.map(|preset| preset.key()),
+            }),
+        )?;
+    }
+    let (width, height) = args.size;
+    let summary = serde_json::json!({ "device": device, "size": format!("{width}x{height}") });
+    json_line(out, &serde_json::json!({ "summary": summary }))?;
+    Ok(Status::Success)
+}
+
+/// Says that there is nothing to render with.
+#[cfg(not(feature = "renderer"))]
+pub fn run(args: &BenchRenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
+    let _ = (args, json_line::<()>, progress);
+    super::no_pictures("bench-render")
+}
