@@ -27,6 +27,8 @@ pub mod table;
 
 pub mod rack;
 
+pub mod room;
+
 pub mod scene;
 
 pub mod haptic;
