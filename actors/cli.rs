@@ -19,6 +19,8 @@ mod tournament;
 
 mod replay;
 
+mod bake;
+
 mod render;
 
 mod scene;
@@ -99,6 +101,7 @@ enum Command {
     Tournament(tournament::TournamentArgs),
     Replay(replay::ReplayArgs),
     Render(render::RenderArgs),
+    Bake(bake::BakeArgs),
     Scene(scene::SceneArgs),
     Scenes(scenes::ScenesArgs),
     Rules(rules::RulesArgs),
@@ -179,6 +182,7 @@ pub fn run() -> ExitCode {
         Command::Tournament(args) => tournament::run(&args, &mut out),
         Command::Replay(args) => replay::run(&args, &mut out),
         Command::Render(args) => render::run(&args, &mut out),
+        Command::Bake(args) => bake::run(&args, &mut out),
         Command::Scene(args) => scene::run(&args, &mut out),
         Command::Scenes(args) => scenes::run(&args, &mut out),
         Command::Rules(args) => rules::run(&args, &mut out),

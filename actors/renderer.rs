@@ -33,6 +33,10 @@ mod outbox;
 
 mod pointer;
 
+mod room;
+
+mod room_light;
+
 mod running;
 
 mod stage;
@@ -46,6 +50,7 @@ mod window;
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
 pub use offscreen::{card, pixels, written};
+pub use room_light::{decode_light, encode_light, shipped_light};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
 pub use window::{Backdrop, Host, NoWindow, WindowSetup, show};

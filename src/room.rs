@@ -42,7 +42,7 @@ pub use chart::Chart;
 pub use finish::Finish;
 pub use grain::{Grain, TILE_SIDE};
 pub use lamp::{LAMP_HEIGHT_M, LAMP_PITCH_M, SHADE_RADIUS_M, lamp_opacity, shades};
-pub use light_map::{LIGHT_MOST, LightMap, LightMapError};
+pub use light_map::{BakedFor, LIGHT_MOST, LightMap, LightMapError};
 pub use obstacles::Obstacle;
 pub use table_light::FromAbove;
 

@@ -5,6 +5,7 @@ mod thought;
 
 use super::{Status, not_negative, size};
 use clap::{Args, ValueEnum};
+use glam::DVec3;
 use hapticbillard::scene::Entrant;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
@@ -27,6 +28,7 @@ const EXAMPLE: &str = "\
 Examples:
   hapticbillard render --scene eight_ball --out table.png
   hapticbillard render --scene break_shot --at 0.4 --size 1920x1080 --out break.png
+  hapticbillard render --scene free_play --eye=-3.9,-2.6,0.9 --target 1.5,1,0.2 --out room.png
   hapticbillard render --scene eight_ball_headless --thoughts 3 --out thoughts.png
   hapticbillard render --replay game.jsonl --thoughts 12 --from head --out thoughts.png";
 
@@ -60,6 +62,16 @@ pub struct RenderArgs {
     /// Where the picture is taken from; with --thoughts from above.
     #[arg(long, value_enum)]
     pub from: Option<Eye>,
+
+    /// Where the eye is [m], in place of --from: along the table, to its left, above the cloth.
+    #[arg(long, value_name = "X,Y,Z", conflicts_with = "from", value_parser = point)]
+    #[arg(allow_hyphen_values = true)]
+    pub eye: Option<DVec3>,
+
+    /// What that eye looks at [m].
+    #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = point)]
+    #[arg(allow_hyphen_values = true, default_value = "0,0,0")]
+    pub target: DVec3,
 
     /// Size of the picture in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
@@ -97,6 +109,17 @@ fn png_name(text: &str) -> Result<PathBuf, String> {
     }
 }
 
+/// A point in metres, such as `-2,0,0.5`.
+fn point(text: &str) -> Result<DVec3, String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|number| number.parse().ok()).collect();
+    match numbers[..] {
+        [x, y, z] if text.matches(',').count() == 2 && [x, y, z].iter().all(|x| x.abs() <= 1e3) => {
+            Ok(DVec3::new(x, y, z))
+        }
+        _ => Err(String::from("expected three numbers of metres, such as -2,0,0.5")),
+    }
+}
+
 /// What was written.
 #[cfg(feature = "renderer")]
 #[derive(serde::Serialize)]
@@ -125,6 +148,9 @@ fn stage(args: &RenderArgs) -> Result<(Stage, Option<Recording>), Error> {
 /// The eye.
 #[cfg(feature = "renderer")]
 fn eye(args: &RenderArgs, stage: &Stage) -> CameraPose {
+    if let Some(eye) = args.eye {
+        return CameraPose { eye, target: args.target, ..CameraPose::default() };
+    }
     let length_m = stage.table.bed.map_or(2.54, |bed| bed.length_m);
     let above = CameraPose::above(length_m);
     // Beside the table is room for what is written about thoughts.

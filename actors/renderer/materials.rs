@@ -1,8 +1,10 @@
 //! Shaders as materials: each one a text, its render states and what it is told.
 
+use super::room_light::RoomLight;
 use three_d::*;
 
-const LIGHT: &str = include_str!("shaders/light.glsl");
+/// The light that all shaders share.
+pub const LIGHT: &str = include_str!("shaders/light.glsl");
 const SURFACE: &str = include_str!("shaders/surface.frag");
 const BALL: &str = include_str!("shaders/ball.frag");
 const SHADOW: &str = include_str!("shaders/shadow.frag");
@@ -71,6 +73,8 @@ pub struct Told<'a> {
     pub tell: &'a dyn Fn(&Program),
     /// Half the bed [m].
     pub bed: Vec2,
+    /// The light of the room.
+    pub room: &'a RoomLight,
 }
 
 impl Material for Told<'_> {
@@ -85,6 +89,7 @@ impl Material for Told<'_> {
     fn use_uniforms(&self, program: &Program, viewer: &dyn Viewer, _: &[&dyn Light]) {
         program.use_uniform_if_required("eye", viewer.position());
         program.use_uniform_if_required("bed", self.bed);
+        self.room.tell(program);
         (self.tell)(program);
     }
 

@@ -3,6 +3,8 @@
 //! Everything here lives and dies on the thread that owns the graphics context.
 
 use super::materials::{Shader, Told};
+use super::room::RoomStage;
+use super::room_light::RoomLight;
 use super::textures;
 use hapticbillard::cue::CuePose;
 use hapticbillard::ids::BallId;
@@ -44,14 +46,21 @@ pub struct Stage {
     line_and_d: Vec2,
     spots: [Vec2; 6],
     pockets: [Vec3; 6],
+    room: Option<RoomStage>,
+    light: RoomLight,
 }
 
 impl Stage {
     /// Brings a table into the graphics card.
     pub fn new(context: &Context, table: &Table) -> Self {
+        let (room, light) = match RoomStage::around(context, table) {
+            Some((room, light)) => (Some(room), light),
+            None => (None, RoomLight::none(context)),
+        };
         let mut parts: Vec<(Shader, Mesh)> = table
             .display()
             .iter()
+            .filter(|part| room.is_none() || !RoomStage::draws(part.name))
             // Marks are thinner than a pixel from afar: the cloth's shader paints them.
             .filter(|part| part.material != Made::Line)
             .map(|part| {
@@ -94,6 +103,8 @@ impl Stage {
             spots,
             outer: bed + vec2(0.2, 0.2),
             pockets,
+            room,
+            light,
         }
     }
 
@@ -126,6 +137,9 @@ impl Stage {
             };
             self.render(mesh, *shader, &tell, &camera);
         }
+        if let Some(room) = &self.room {
+            room.draw(&self.light, self.bed, &camera);
+        }
         for ball in &list.balls {
             self.shadow(ball.position, ball.radius_m, &camera);
         }
@@ -142,7 +156,7 @@ impl Stage {
     }
 
     fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &Camera) {
-        let material = Told { shader, tell, bed: self.bed };
+        let material = Told { shader, tell, bed: self.bed, room: &self.light };
         mesh.render_with_material(&material, camera, &[]);
     }
 

@@ -101,7 +101,7 @@ fn cue_rack(b: &mut Builder) {
 }
 
 /// A frame round a rectangle on the wall: half width and height [m]; returns its inner edge.
-fn frame(b: &mut Builder, half: f64, height: f64, width: f64, finish: super::Finish) {
+fn frame(b: &mut Builder, half: f64, height: f64, width: f64, finish: Finish) {
     let depth = 0.035;
     for (least, most) in [
         ([-half - width, -width], [half + width, 0.0]),
@@ -115,7 +115,7 @@ fn frame(b: &mut Builder, half: f64, height: f64, width: f64, finish: super::Fin
 }
 
 /// A plate on the wall, `depth` before it.
-fn plate(b: &mut Builder, at: [f64; 2], size: [f64; 2], depth: f64, finish: super::Finish) {
+fn plate(b: &mut Builder, at: [f64; 2], size: [f64; 2], depth: f64, finish: Finish) {
     let corner = DVec3::new(at[0], -depth, at[1]);
     b.quad(corner, DVec3::X * size[0], DVec3::Z * size[1], finish, LAY);
 }
@@ -242,7 +242,7 @@ fn poster(b: &mut Builder) {
 }
 
 /// A disc on the wall.
-fn disc(b: &mut Builder, [x, z]: [f64; 2], radius: f64, depth: f64, finish: super::Finish) {
+fn disc(b: &mut Builder, [x, z]: [f64; 2], radius: f64, depth: f64, finish: Finish) {
     let count = if radius < 0.06 { 12 } else { 28 };
     let at = |k: i32, r: f64| {
         let (sin, cos) = libm::sincos(TAU * f64::from(k % count) / f64::from(count));

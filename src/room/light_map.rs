@@ -1,7 +1,31 @@
 //! Baked light as a picture of eight bits a channel.
 
 use super::Room;
+use super::lamp::{LAMP_HEIGHT_M, shades};
+use super::texels::texels;
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What a shipped light map was baked for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BakedFor {
+    /// [`Room::digest`].
+    pub room: String,
+    /// Rays per texel and round.
+    pub samples: u32,
+}
+
+impl BakedFor {
+    /// Reads a list of them in TOML, by the names of tables.
+    ///
+    /// # Errors
+    /// The text is no such list.
+    pub fn list(text: &str) -> Result<BTreeMap<String, BakedFor>, toml::de::Error> {
+        toml::from_str(text)
+    }
+}
 
 /// The brightest light that a map holds, in units of a white surface in full light. What is
 /// brighter is white on any screen.
@@ -51,6 +75,26 @@ impl LightMap {
     pub(super) fn of(size: [u32; 2], light: &[Vec3]) -> Self {
         let byte = |x: f32| ((x / LIGHT_MOST).clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8;
         LightMap { size, texels: light.iter().map(|light| light.to_array().map(byte)).collect() }
+    }
+
+    /// Light that nobody baked: the lamps' as if nothing were in its way, and a little from
+    /// everywhere. For rooms without a map that fits.
+    pub fn unbaked(room: &Room) -> Self {
+        let [width, height] = room.surfaces.size;
+        let mut light = vec![Vec3::splat(0.03); (width * height) as usize];
+        for texel in texels(&room.surfaces) {
+            let (at, normal) = (texel.points[0].position, texel.points[0].normal);
+            let mut sum = 0.0;
+            for shade in shades() {
+                let lamp = shade.extend(LAMP_HEIGHT_M).as_vec3();
+                let way = lamp - at;
+                let square = way.length_squared();
+                let way = way / square.sqrt();
+                sum += normal.dot(way).max(0.0) * way.z.max(0.0) / (0.35 + square);
+            }
+            light[texel.number as usize] = Vec3::new(0.92, 0.86, 0.74) * sum + 0.05;
+        }
+        LightMap::of(room.surfaces.size, &light)
     }
 
     /// The light of a texel.

@@ -11,6 +11,23 @@ uniform vec2 line_and_d;
 uniform vec2 spots[6];
 layout (location = 0) out vec4 colour;
 
+// Light on this kind of surface: baked where there is a room, else that of the lamps through what
+// is open of it.
+vec3 falling(vec3 at, vec3 n, float open) {
+#if KIND == 0
+    if (bed_light.z != 0.0) {
+        return baked(bed_light.xy + at.xy * bed_light.zw) * smoothstep(-0.03, -0.001, at.z);
+    }
+#elif KIND == 1 || KIND == 2 || KIND == 4 || KIND == 6
+    if (rail_light.z != 0.0) {
+        // From above nobody sees the sides.
+        vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
+        return mix(side_light, above, smoothstep(0.1, 0.8, n.z)) * (KIND == 1 ? open : 1.0);
+    }
+#endif
+    return received(at, n) * open;
+}
+
 void main() {
     vec3 n = normalize(nor);
     vec3 v = normalize(eye - pos);
@@ -76,7 +93,7 @@ void main() {
     vec2 away = max(abs(pos.xy) - outer, 0.0);
     open = mix(0.10, 0.62, smoothstep(0.0, 0.9, length(away)));
 #endif
-    vec3 light = albedo * received(pos, n) * open;
+    vec3 light = albedo * falling(pos, n, open);
     if (gloss > 0.0) {
         float rim = 1.0 - max(dot(n, v), 0.0);
         float fresnel = 0.045 + 0.5 * rim * rim * rim * rim;

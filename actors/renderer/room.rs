@@ -1,0 +1,178 @@
+//! The room on the graphics card: one shader, one draw call for what stands, one for the vault and
+//! one for the lamp.
+
+use super::materials::LIGHT;
+use super::room_light::{RoomLight, shipped_light};
+use glam::DVec3;
+use hapticbillard::room::{Grain, Group, LightMap, Room, TILE_SIDE, Vertex, lamp_opacity};
+use hapticbillard::table::Table;
+use three_d::*;
+
+const VERTEX: &str = include_str!("shaders/room.vert");
+const FRAGMENT: &str = include_str!("shaders/room.frag");
+/// Below this share of the lamp nothing of it is drawn.
+const UNSEEN: f64 = 0.01;
+/// How bright what shines is on the screen at most: brighter colours would all be white.
+const GLARE: f32 = 4.0;
+
+/// Meshes and textures of a room.
+pub struct RoomStage {
+    program: Program,
+    positions: VertexBuffer<Vec3>,
+    normals: VertexBuffer<Vec3>,
+    paints: VertexBuffer<Vec4>,
+    grains: VertexBuffer<Vec3>,
+    lights: VertexBuffer<Vec2>,
+    standing: ElementBuffer<u32>,
+    ceiling: ElementBuffer<u32>,
+    lamp: ElementBuffer<u32>,
+    tiles: Texture2DArray,
+    crown_m: f64,
+    outer: glam::DVec2,
+}
+
+impl RoomStage {
+    /// The room of a table and its light, if it is a table that has one.
+    pub fn around(context: &Context, table: &Table) -> Option<(Self, RoomLight)> {
+        let room = Room::around(table)?;
+        let map = shipped_light(&table.name, &room).unwrap_or_else(|reason| {
+            tracing::warn!("no baked light for {}: {reason}; it is lit plainly", table.name);
+            LightMap::unbaked(&room)
+        });
+        match Self::new(context, &room) {
+            Ok(stage) => Some((stage, RoomLight::new(context, &room, &map))),
+            Err(error) => {
+                tracing::error!("the room is not drawn: {error}");
+                None
+            }
+        }
+    }
+
+    /// Whether this part of a table is drawn with the room.
+    pub fn draws(part: &str) -> bool {
+        matches!(part, "floor" | "apron" | "legs")
+    }
+
+    fn new(context: &Context, room: &Room) -> Result<Self, CoreError> {
+        let fragment = format!("#define DETAIL 1\n{LIGHT}{FRAGMENT}");
+        let program = Program::from_source(context, VERTEX, &fragment)?;
+        let surfaces = &room.surfaces;
+        // The upper side of the table is drawn by others.
+        let mut numbers = vec![u32::MAX; surfaces.vertices.len()];
+        let mut vertices: Vec<&Vertex> = Vec::new();
+        let mut indices: [Vec<u32>; 3] = Default::default();
+        for (corners, group) in &surfaces.triangles {
+            let indices = match group {
+                Group::Standing => &mut indices[0],
+                Group::Ceiling => &mut indices[1],
+                Group::Lamp => &mut indices[2],
+                Group::TableTop => continue,
+            };
+            for corner in corners {
+                let number = &mut numbers[*corner as usize];
+                if *number == u32::MAX {
+                    *number = vertices.len() as u32;
+                    vertices.push(&surfaces.vertices[*corner as usize]);
+                }
+                indices.push(*number);
+            }
+        }
+        let vector = |v: DVec3| vec3(v.x as f32, v.y as f32, v.z as f32);
+        let paint = |vertex: &&Vertex| {
+            let finish = surfaces.finish_of(vertex);
+            let own = if finish.glow > 0.0 { -finish.glow.min(GLARE) } else { finish.gloss };
+            Vec3::from(finish.colour).extend(own)
+        };
+        let grain = |vertex: &&Vertex| {
+            let grain = surfaces.finish_of(vertex).grain;
+            let [u, v] = grain.tile_m();
+            let at = vertex.grain / glam::DVec2::new(u, v);
+            vec3(at.x as f32, at.y as f32, grain.layer() as f32)
+        };
+        let [width, height] = surfaces.size.map(f64::from);
+        let light = |vertex: &&Vertex| {
+            vec2((vertex.light.x / width) as f32, (vertex.light.y / height) as f32)
+        };
+        let each = || vertices.iter();
+        let positions: Vec<Vec3> = each().map(|vertex| vector(vertex.position)).collect();
+        let normals: Vec<Vec3> = each().map(|vertex| vector(vertex.normal)).collect();
+        let [standing, ceiling, lamp] = indices.map(|i| ElementBuffer::new_with_data(context, &i));
+        Ok(RoomStage {
+            program,
+            positions: VertexBuffer::new_with_data(context, &positions),
+            normals: VertexBuffer::new_with_data(context, &normals),
+            paints: VertexBuffer::new_with_data(context, &each().map(paint).collect::<Vec<_>>()),
+            grains: VertexBuffer::new_with_data(context, &each().map(grain).collect::<Vec<_>>()),
+            lights: VertexBuffer::new_with_data(context, &each().map(light).collect::<Vec<_>>()),
+            standing,
+            ceiling,
+            lamp,
+            tiles: tiles(context),
+            crown_m: room.crown_m(),
+            outer: room.outer,
+        })
+    }
+
+    /// Draws it; `bed` is half the bed [m].
+    pub fn draw(&self, light: &RoomLight, bed: Vec2, camera: &Camera) {
+        let eye = camera.position();
+        let own = DVec3::new(f64::from(eye.x), f64::from(eye.y), f64::from(eye.z));
+        self.part(&self.standing, 1.0, light, bed, camera);
+        if own.z < self.crown_m {
+            self.part(&self.ceiling, 1.0, light, bed, camera);
+        }
+        let opacity = lamp_opacity(own, self.outer);
+        if UNSEEN < opacity {
+            self.part(&self.lamp, opacity as f32, light, bed, camera);
+        }
+    }
+
+    fn part(
+        &self,
+        indices: &ElementBuffer<u32>,
+        seen: f32,
+        light: &RoomLight,
+        bed: Vec2,
+        camera: &Camera,
+    ) {
+        let program = &self.program;
+        program.use_uniform("view_projection", camera.projection() * camera.view());
+        program.use_uniform_if_required("eye", camera.position());
+        program.use_uniform_if_required("bed", bed);
+        program.use_uniform("seen", seen);
+        light.tell(program);
+        if program.requires_uniform("grains") {
+            program.use_texture_array("grains", &self.tiles);
+        }
+        program.use_vertex_attribute("position", &self.positions);
+        program.use_vertex_attribute("paint", &self.paints);
+        program.use_vertex_attribute("light", &self.lights);
+        if program.requires_attribute("normal") {
+            program.use_vertex_attribute("normal", &self.normals);
+        }
+        if program.requires_attribute("grain") {
+            program.use_vertex_attribute("grain", &self.grains);
+        }
+        let states = RenderStates { cull: Cull::Back, ..RenderStates::default() };
+        program.draw_elements(states, camera.viewport(), indices);
+    }
+}
+
+/// The tiles of all grains.
+fn tiles(context: &Context) -> Texture2DArray {
+    let layers: Vec<CpuTexture> = Grain::ALL
+        .iter()
+        .map(|grain| CpuTexture {
+            name: "grain".to_owned(),
+            data: TextureData::RgbU8(grain.tile()),
+            width: TILE_SIDE,
+            height: TILE_SIDE,
+            min_filter: Interpolation::Linear,
+            mag_filter: Interpolation::Linear,
+            mipmap: Some(Mipmap::default()),
+            wrap_s: Wrapping::Repeat,
+            wrap_t: Wrapping::Repeat,
+        })
+        .collect();
+    Texture2DArray::new(context, &layers.iter().collect::<Vec<_>>())
+}
