@@ -49,7 +49,7 @@ mod window;
 
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
-pub use offscreen::{card, pixels, written};
+pub use offscreen::{card, frame_times, pixels, written};
 pub use room_light::{decode_light, encode_light, shipped_light};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;

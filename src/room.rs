@@ -142,12 +142,13 @@ impl Room {
         let floor_m = -parameters.bed_height_m;
         let mut b = Builder::default();
         let mut obstacles = Vec::new();
-        shell::build(&mut b, floor_m);
         b.begin(Group::Standing);
         bar::build(&mut b, floor_m, &mut obstacles);
         furniture::build(&mut b, floor_m, &mut obstacles);
         lamp::build(&mut b, CROWN_M + floor_m);
         let table = table_light::build(&mut b, parameters, &table.display());
+        // Walls last: they are drawn in this order, and everything else hides them.
+        shell::build(&mut b, floor_m);
         let mirror = b.chart(MIRROR_SIDE, MIRROR_SIDE);
         for obstacle in &mut obstacles {
             obstacle.least.z += floor_m;

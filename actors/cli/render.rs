@@ -20,7 +20,7 @@ use {
     hapticbillard::scene::Overrides,
     hapticbillard_actors::files::{load_scene, write_whole},
     hapticbillard_actors::game::Stage,
-    hapticbillard_actors::renderer::png,
+    hapticbillard_actors::renderer::{frame_times, png},
     thought::Thought,
 };
 
@@ -86,6 +86,10 @@ pub struct RenderArgs {
     #[arg(allow_negative_numbers = true)]
     pub at: f64,
 
+    /// Draws the picture so many times more and says how long one takes, without smooth edges.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub frames: Option<u32>,
+
     /// Prints the summary as a JSON line.
     #[arg(long)]
     pub json: bool,
@@ -130,6 +134,25 @@ struct Summary<'a> {
     time_s: f64,
     balls: usize,
     bytes: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame_ms: Option<Frames>,
+}
+
+/// How long one picture takes [ms].
+#[cfg(feature = "renderer")]
+#[derive(Clone, Copy, serde::Serialize)]
+struct Frames {
+    least: f64,
+    median: f64,
+}
+
+#[cfg(feature = "renderer")]
+impl Frames {
+    fn of(mut times: Vec<std::time::Duration>) -> Option<Self> {
+        times.sort();
+        let ms = |time: &std::time::Duration| time.as_secs_f64() * 1e3;
+        Some(Frames { least: ms(times.first()?), median: ms(times.get(times.len() / 2)?) })
+    }
 }
 
 /// The game that is shown.
@@ -188,12 +211,19 @@ pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
     write_whole(&args.out, &file)?;
     let (width, height) = args.size;
     let (balls, bytes) = (list.balls.len(), file.len());
+    let frame_ms = match args.frames {
+        Some(count) => Frames::of(frame_times(&stage.table, &list, args.size, count as usize)?),
+        None => None,
+    };
     if args.json {
-        let summary = Summary { out: &args.out, width, height, time_s, balls, bytes };
+        let summary = Summary { out: &args.out, width, height, time_s, balls, bytes, frame_ms };
         super::json_line(out, &serde_json::json!({ "summary": summary }))?;
     } else {
         let path = args.out.display();
         writeln!(out, "{path}: {width} x {height} pixels, {balls} balls, at {time_s} s")?;
+        if let Some(Frames { least, median }) = frame_ms {
+            writeln!(out, "one takes {median:.1} ms, {least:.1} ms at best")?;
+        }
     }
     Ok(Status::Success)
 }

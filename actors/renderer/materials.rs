@@ -40,14 +40,17 @@ impl Shader {
         }
     }
 
-    fn text(self) -> String {
-        match self {
+    /// Its text; whether there is a room is known when it is compiled, since a processor that draws
+    /// would pay for both.
+    fn text(self, has_room: bool) -> String {
+        let text = match self {
             Shader::Ball => format!("{LIGHT}{BALL}"),
             Shader::Shadow => format!("{LIGHT}{SHADOW}"),
             Shader::Painted => format!("{LIGHT}{PAINTED}"),
             Shader::Plain | Shader::Over => format!("{LIGHT}{PLAIN}"),
             Shader::Surface(kind) => format!("#define KIND {kind}\n{LIGHT}{SURFACE}"),
-        }
+        };
+        format!("#define ROOM {}\n{text}", u8::from(has_room))
     }
 
     fn states(self) -> RenderStates {
@@ -79,11 +82,11 @@ pub struct Told<'a> {
 
 impl Material for Told<'_> {
     fn fragment_shader_source(&self, _: &[&dyn Light]) -> String {
-        self.shader.text()
+        self.shader.text(self.room.is_there())
     }
 
     fn id(&self) -> EffectMaterialId {
-        EffectMaterialId(self.shader.number())
+        EffectMaterialId(self.shader.number() + if self.room.is_there() { 0x800 } else { 0 })
     }
 
     fn use_uniforms(&self, program: &Program, viewer: &dyn Viewer, _: &[&dyn Light]) {

@@ -7,6 +7,7 @@ use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use khronos_egl as egl;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 use three_d::context::{HasContext, RENDERER};
 use three_d::*;
 
@@ -85,6 +86,58 @@ pub fn card() -> Result<String, NoPicture> {
 /// [`NoPicture`] if this machine has no OpenGL.
 pub fn pixels(table: &Table, list: &DrawList, size: (u32, u32)) -> Result<Vec<[u8; 4]>, NoPicture> {
     written(table, list, &Hud::default(), size)
+}
+
+/// How long one picture takes: the same picture so many times, each until it is done. The first
+/// one, in which shaders are made, does not count.
+///
+/// # Errors
+/// [`NoPicture`] if this machine has no OpenGL.
+#[allow(unsafe_code)]
+pub fn frame_times(
+    table: &Table,
+    list: &DrawList,
+    (width, height): (u32, u32),
+    count: usize,
+) -> Result<Vec<Duration>, NoPicture> {
+    let context = context()?;
+    let mut stage = Stage::new(&context, table);
+    let viewport = Viewport::new_at_origo(width, height);
+    let texture = Texture2D::new_empty::<[u8; 4]>(
+        &context,
+        width,
+        height,
+        Interpolation::Nearest,
+        Interpolation::Nearest,
+        None,
+        Wrapping::ClampToEdge,
+        Wrapping::ClampToEdge,
+    );
+    let depth = DepthTexture2D::new::<f32>(
+        &context,
+        width,
+        height,
+        Wrapping::ClampToEdge,
+        Wrapping::ClampToEdge,
+    );
+    let mut times = Vec::with_capacity(count);
+    for _ in 0..=count {
+        let begun = Instant::now();
+        let target = RenderTarget::new(texture.as_color_target(None), depth.as_depth_target());
+        let [r, g, b] = BACKGROUND;
+        target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
+        target
+            .write::<CoreError>(|| {
+                stage.draw(list, viewport);
+                Ok(())
+            })
+            .map_err(|error| failed("OpenGL", error))?;
+        // SAFETY: the context is current on this thread; waiting changes nothing.
+        unsafe { context.finish() };
+        times.push(begun.elapsed());
+    }
+    times.remove(0);
+    Ok(times)
 }
 
 /// The same with labels and display.

@@ -96,6 +96,11 @@ impl RoomLight {
         RoomLight { map: texture(context, &dark), mirror: zero, bed: zero, rails: zero, side }
     }
 
+    /// Whether there is a room.
+    pub fn is_there(&self) -> bool {
+        self.mirror.z != 0.0
+    }
+
     /// Tells a shader what it wants to know of it.
     pub fn tell(&self, program: &Program) {
         if program.requires_uniform("room_light") {

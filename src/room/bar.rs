@@ -151,10 +151,10 @@ fn bottle(b: &mut Builder, kind: usize, colour: [f32; 3]) {
         (0.013, height),
         (0.0, height),
     ];
-    b.lathe(&outline, 9, glass(colour), FINE);
+    b.lathe(&outline, 7, glass(colour), FINE);
     // Its label.
     let outline = [(radius + 0.001, 0.04), (radius + 0.001, 0.11)];
-    b.lathe(&outline, 9, if kind == 1 { CHALK } else { PAPER }, FINE);
+    b.lathe(&outline, 7, if kind == 1 { CHALK } else { PAPER }, FINE);
 }
 
 /// A stool with a seat of leather on a foot of brass.

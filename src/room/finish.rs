@@ -43,7 +43,7 @@ pub(super) const VAULT: Finish = Finish::of(Grain::Brick, [0.36, 0.27, 0.20], 0.
 /// Dressed stone of pilasters and ribs.
 pub(super) const STONE: Finish = Finish::of(Grain::Stone, [0.30, 0.255, 0.205], 0.0);
 /// The floor.
-pub(super) const BOARDS: Finish = Finish::of(Grain::Boards, [0.150, 0.080, 0.042], 0.25);
+pub(super) const BOARDS: Finish = Finish::of(Grain::Boards, [0.175, 0.094, 0.049], 0.25);
 /// Panels along the walls and the front of the bar.
 pub(super) const PANELS: Finish = Finish::of(Grain::Panels, [0.105, 0.047, 0.023], 0.2);
 /// Rails, frames, furniture.
@@ -71,7 +71,7 @@ pub(super) const PAPER: Finish = Finish::of(Grain::Plaster, [0.62, 0.52, 0.36], 
 /// Cork.
 pub(super) const CORK: Finish = Finish::of(Grain::Plaster, [0.30, 0.18, 0.09], 0.0);
 /// A mirror that has seen much smoke.
-pub(super) const MIRROR: Finish = Finish::of(Grain::Plaster, [0.11, 0.10, 0.085], 0.8);
+pub(super) const MIRROR: Finish = Finish::of(Grain::Plaster, [0.11, 0.10, 0.085], 0.3);
 /// Enamel of the lamp's shades outside, and inside.
 pub(super) const SHADE: Finish = Finish::of(Grain::Plain, [0.012, 0.085, 0.045], 1.2);
 /// See [`SHADE`].
@@ -81,9 +81,9 @@ pub(super) const LAMP_GLASS: Finish = Finish::lit([1.0, 0.93, 0.80], super::lamp
 /// What leaves a shade at its top, where the lamp is bare.
 pub(super) const LAMP_TOP: Finish = Finish::lit([1.0, 0.86, 0.66], 130.0);
 /// Small lamps: sconces and the light over shelves.
-pub(super) const SMALL_LAMP: Finish = Finish::lit([1.0, 0.60, 0.27], 80.0);
+pub(super) const SMALL_LAMP: Finish = Finish::lit([1.0, 0.60, 0.27], 110.0);
 /// A strip over a shelf.
-pub(super) const STRIP: Finish = Finish::lit([1.0, 0.64, 0.31], 30.0);
+pub(super) const STRIP: Finish = Finish::lit([1.0, 0.64, 0.31], 38.0);
 /// The night outside.
 pub(super) const NIGHT: Finish = Finish::lit([0.28, 0.45, 1.0], 1.6);
 

@@ -14,18 +14,19 @@ layout (location = 0) out vec4 colour;
 // Light on this kind of surface: baked where there is a room, else that of the lamps through what
 // is open of it.
 vec3 falling(vec3 at, vec3 n, float open) {
-#if KIND == 0
-    if (bed_light.z != 0.0) {
-        return baked(bed_light.xy + at.xy * bed_light.zw) * smoothstep(-0.03, -0.001, at.z);
-    }
-#elif KIND == 1 || KIND == 2 || KIND == 4 || KIND == 6
-    if (rail_light.z != 0.0) {
-        // From above nobody sees the sides.
-        vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
-        return mix(side_light, above, smoothstep(0.1, 0.8, n.z)) * (KIND == 1 ? open : 1.0);
-    }
-#endif
+#if ROOM == 1 && KIND == 0
+    return baked(bed_light.xy + at.xy * bed_light.zw) * smoothstep(-0.03, -0.001, at.z);
+#elif ROOM == 1 && KIND == 1
+    // The map is seen from above; noses face the lamp.
+    vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
+    return mix(received(at, n), above, smoothstep(0.1, 0.8, n.z)) * open;
+#elif ROOM == 1 && (KIND == 2 || KIND == 4 || KIND == 6)
+    // Sides of rails look away from the lamp.
+    vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
+    return mix(side_light, above, smoothstep(0.1, 0.8, n.z));
+#else
     return received(at, n) * open;
+#endif
 }
 
 void main() {
@@ -100,7 +101,7 @@ void main() {
         light += surroundings(pos, reflect(-v, n), 0.12) * fresnel * gloss * open;
     }
 #if KIND == 8
-    light = mix(light, ROOM, smoothstep(1.2, 3.2, length(away)));
+    light = mix(light, DARK, smoothstep(1.2, 3.2, length(away)));
 #endif
     colour = vec4(developed(light), 1.0);
 }
