@@ -8,8 +8,8 @@ CARGO := cargo
 # How long `make fuzz` looks at each of its TARGETS; at all of them if none is named.
 MINUTES ?= 10
 
-.PHONY: play test report pictures window hour peers fuzz builds licences deb setup early featureless lints \
-	everything documents package
+.PHONY: play test report pictures window hour peers fuzz builds light licences deb setup early \
+	featureless lints everything documents package
 
 play: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- play
@@ -43,6 +43,11 @@ builds:
 	python3 tests/builds/run.py
 	$(CARGO) run --release --locked --package hapticbillard-actors --no-default-features -- \
 	  report --left-out --builds tests/report/builds.json --out tests/report
+
+# The light of the rooms, baked anew into assets/light: some minutes.
+light:
+	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- \
+	  bake --out assets/light
 
 # Lists the licences of all libraries anew.
 licences:

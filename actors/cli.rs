@@ -19,6 +19,8 @@ mod tournament;
 
 mod replay;
 
+mod bake;
+
 mod render;
 
 mod scene;
@@ -101,6 +103,7 @@ enum Command {
     Render(render::RenderArgs),
     BenchRender(render::bench::BenchRenderArgs),
     Film(render::film::FilmArgs),
+    Bake(bake::BakeArgs),
     Scene(scene::SceneArgs),
     Scenes(scenes::ScenesArgs),
     Rules(rules::RulesArgs),
@@ -183,6 +186,7 @@ pub fn run() -> ExitCode {
         Command::Render(args) => render::run(&args, &mut out),
         Command::BenchRender(args) => render::bench::run(&args, &mut out),
         Command::Film(args) => render::film::run(&args, &mut out),
+        Command::Bake(args) => bake::run(&args, &mut out),
         Command::Scene(args) => scene::run(&args, &mut out),
         Command::Scenes(args) => scenes::run(&args, &mut out),
         Command::Rules(args) => rules::run(&args, &mut out),

@@ -43,6 +43,10 @@ mod painter;
 
 mod pointer;
 
+mod room;
+
+mod room_light;
+
 mod running;
 
 mod seeker;
@@ -60,6 +64,7 @@ mod window;
 pub use felt::FeltSetup;
 pub use heard::HeardSetup;
 pub use offscreen::{Studio, card};
+pub use room_light::{decode_light, encode_light, shipped_light};
 pub use running::{GameSetup, Play, Ports, Prepared};
 pub use textures::number_layer;
 pub use window::{Backdrop, Host, NoWindow, TakeUp, WindowSetup, show};

@@ -29,6 +29,8 @@ pub mod table;
 
 pub mod rack;
 
+pub mod room;
+
 pub mod scene;
 
 pub mod haptic;

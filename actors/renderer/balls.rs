@@ -93,6 +93,7 @@ impl Buffers {
 /// Which variant of the ball's shader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Variant {
+    has_room: bool,
     shadows: u8,
     environment: u8,
     has_scratches: bool,
@@ -151,6 +152,7 @@ impl Balls {
         &mut self,
         list: &DrawList,
         settings: &PictureSettings,
+        has_room: bool,
         pixels_per_rad: f32,
     ) -> Result<(), CoreError> {
         let eye = list.camera.eye.as_vec3();
@@ -164,7 +166,7 @@ impl Balls {
             self.all.push(ball, detail.reflection, detail.scratches);
         }
         self.places.fill(&self.all.places);
-        let variant = variant(settings);
+        let variant = variant(settings, has_room);
         if !self.programs.contains_key(&variant) {
             self.programs.insert(variant, ball_program(&self.context, variant)?);
         }
@@ -184,9 +186,10 @@ impl Balls {
         facts: &Facts,
         tell: &dyn Fn(&Program),
     ) {
-        let (Some(program), Some(digits)) =
-            (self.programs.get(&variant(settings)), self.digits.get(&settings.texture))
-        else {
+        let (Some(program), Some(digits)) = (
+            self.programs.get(&variant(settings, facts.room.is_there())),
+            self.digits.get(&settings.texture),
+        ) else {
             return;
         };
         for (group, mesh) in self.groups.iter().zip(&self.meshes) {
@@ -316,8 +319,9 @@ const CONTACT_PLACE: &str = include_str!("shaders/contact.vert");
 const HIDDEN: &str = include_str!("shaders/hidden.glsl");
 const CONTACT: &str = include_str!("shaders/contact.frag");
 
-fn variant(settings: &PictureSettings) -> Variant {
+fn variant(settings: &PictureSettings, has_room: bool) -> Variant {
     Variant {
+        has_room,
         shadows: shadow_number(settings.shadows),
         environment: match settings.environment {
             Environment::Off => 0,
@@ -339,8 +343,9 @@ pub fn shadow_number(shadows: Shadows) -> u8 {
 }
 
 fn ball_program(context: &Context, variant: Variant) -> Result<Program, CoreError> {
-    let Variant { shadows, environment, has_scratches } = variant;
+    let Variant { has_room, shadows, environment, has_scratches } = variant;
     let set = [
+        ("ROOM", u32::from(has_room)),
         ("SHADOWS", shadows.into()),
         ("ENVIRONMENT", environment.into()),
         ("SCRATCHES", u32::from(has_scratches)),

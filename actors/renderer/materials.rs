@@ -1,5 +1,6 @@
 //! Shaders as materials: each one a text, its render states and what it is told.
 
+use super::room_light::RoomLight;
 use hapticbillard::renderer::{LAMP_APART_M, LAMP_HEIGHT_M};
 use three_d::*;
 
@@ -12,10 +13,10 @@ const PLAN: &str = include_str!("shaders/plan.frag");
 const PLAN_FLOOR: &str = include_str!("shaders/plan_floor.frag");
 const NOTHING: &str = include_str!("shaders/nothing.frag");
 
-/// The text that all shaders of a picture begin with.
-fn light() -> String {
+/// The text that all shaders of a picture begin with; ROOM may be set before it.
+pub fn light() -> String {
     format!(
-        "const float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\nconst float LAMP_APART = {LAMP_APART_M:?};\n\
+        "#ifndef ROOM\n#define ROOM 0\n#endif\nconst float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\nconst float LAMP_APART = {LAMP_APART_M:?};\n\
          {LIGHT}"
     )
 }
@@ -36,18 +37,21 @@ pub fn program(
 }
 
 /// What every shader of a picture may want to know.
-#[derive(Debug, Clone, Copy)]
-pub struct Facts {
+#[derive(Clone, Copy)]
+pub struct Facts<'a> {
     /// Half the bed [m].
     pub bed: Vec2,
+    /// The light of the room that is drawn.
+    pub room: &'a RoomLight,
 }
 
-impl Facts {
+impl Facts<'_> {
     /// Tells a shader.
     pub fn tell(&self, program: &Program, viewer: &dyn Viewer) {
         program.use_uniform_if_required("eye", viewer.position());
         program.use_uniform_if_required("bed", self.bed);
         program.use_uniform_if_required("view_projection", viewer.projection() * viewer.view());
+        self.room.tell(program);
     }
 }
 
@@ -94,8 +98,10 @@ impl Shader {
         }
     }
 
-    fn text(self) -> String {
-        let light = light();
+    /// Its text; whether there is a room is known when it is compiled, since a processor that draws
+    /// would pay for both.
+    fn text(self, has_room: bool) -> String {
+        let light = format!("#define ROOM {}\n{}", u8::from(has_room), light());
         match self {
             Shader::Depth => NOTHING.into(),
             Shader::Plan => PLAN.into(),
@@ -139,20 +145,21 @@ pub struct Told<'a> {
     /// Sets the shader's own uniforms.
     pub tell: &'a dyn Fn(&Program),
     /// What all shaders know.
-    pub facts: Facts,
+    pub facts: Facts<'a>,
 }
 
 impl Material for Told<'_> {
     fn fragment_shader_source(&self, _: &[&dyn Light]) -> String {
-        self.shader.text()
+        self.shader.text(self.facts.room.is_there())
     }
 
     fn id(&self) -> EffectMaterialId {
-        EffectMaterialId(self.shader.number())
+        EffectMaterialId(self.shader.number() + if self.facts.room.is_there() { 0x800 } else { 0 })
     }
 
     fn use_uniforms(&self, program: &Program, viewer: &dyn Viewer, _: &[&dyn Light]) {
         program.use_uniform_if_required("eye", viewer.position());
+        self.facts.room.tell(program);
         program.use_uniform_if_required("bed", self.facts.bed);
         (self.tell)(program);
     }

@@ -5,6 +5,8 @@
 use super::balls::{Balls, shadow_number};
 use super::materials::{Facts, Finish, Shader, Told, program};
 use super::meshes::{ground, laid, marks, part_mesh, shape_mesh, square};
+use super::room::RoomStage;
+use super::room_light::RoomLight;
 use super::shadows::{DownEye, Maps, Volumes};
 use super::textures;
 use hapticbillard::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose, TIP_RADIUS_M};
@@ -39,10 +41,19 @@ const UNDER_CLOTH_M: f32 = -0.12;
 /// What the picture is cleared to: the dark of the room.
 pub const BACKGROUND: [f32; 3] = [0.130, 0.127, 0.136];
 
+/// A part of a table, or of the floor about it.
+struct Part {
+    /// What the shader's KIND is.
+    kind: u16,
+    mesh: Mesh,
+    /// Where a room is drawn, it is a part of that.
+    is_of_room: bool,
+}
+
 /// Meshes and textures.
 pub struct Stage {
     context: Context,
-    parts: Vec<(u16, Mesh)>,
+    parts: Vec<Part>,
     balls: Balls,
     ghost: Mesh,
     cue: Mesh,
@@ -54,15 +65,22 @@ pub struct Stage {
     cone: Mesh,
     nap: Texture2D,
     wood: Texture2D,
-    facts: Facts,
+    bed: Vec2,
     outer: Vec2,
     line_and_d: Vec2,
     spots: ([Vec2; 6], i32),
     pockets: [Vec3; 6],
-    /// Made when they are first wanted: the table from above, and what shadows need.
-    plan: Option<Texture2D>,
+    /// Made when they are first wanted: the table from above, in the light of a room or none, and
+    /// what shadows need.
+    plan: Option<(bool, Texture2D)>,
     maps: Option<Maps>,
     volumes: Option<Volumes>,
+    room: Option<RoomStage>,
+    light: RoomLight,
+    /// The light of no room.
+    no_light: RoomLight,
+    /// The room is seen in this picture.
+    shows_room: bool,
 }
 
 impl Stage {
@@ -71,18 +89,27 @@ impl Stage {
     /// # Errors
     /// Its compiler does not take a shader.
     pub fn new(context: &Context, table: &Table) -> Result<Self, CoreError> {
-        let mut parts: Vec<(u16, Mesh)> = table
+        let (room, light) = match RoomStage::around(context, table) {
+            Some((room, light)) => (Some(room), light),
+            None => (None, RoomLight::none(context)),
+        };
+        let mut parts: Vec<Part> = table
             .display()
             .iter()
             // Marks are thinner than a pixel from afar: the cloth's shader paints them.
             .filter(|part| part.material != Made::Line)
-            .map(|part| (kind(part.material), Mesh::new(context, &part_mesh(part))))
+            .map(|part| Part {
+                kind: kind(part.material),
+                mesh: Mesh::new(context, &part_mesh(part)),
+                is_of_room: RoomStage::draws(part.name),
+            })
             .collect();
         if table.bed.is_none() {
             let level = table.planes.iter().filter(|plane| plane.normal.z > 0.9);
             parts.extend(level.map(|plane| {
                 let made = if plane.surface == Surface::Cloth { Made::Cloth } else { Made::Floor };
-                (kind(made), Mesh::new(context, &ground(plane.point.z as f32)))
+                let mesh = Mesh::new(context, &ground(plane.point.z as f32));
+                Part { kind: kind(made), mesh, is_of_room: false }
             }));
         }
         let mut pockets = [vec3(0.0, 0.0, -1.0); 6];
@@ -115,7 +142,7 @@ impl Stage {
             cone: Mesh::new(context, &shape_mesh(&cone())),
             nap: textures::nap(context),
             wood: textures::wood(context),
-            facts: Facts { bed },
+            bed,
             line_and_d,
             spots,
             outer: bed + vec2(0.2, 0.2),
@@ -123,6 +150,10 @@ impl Stage {
             plan: None,
             maps: None,
             volumes: None,
+            room,
+            light,
+            no_light: RoomLight::none(context),
+            shows_room: false,
             context: context.clone(),
         })
     }
@@ -141,29 +172,34 @@ impl Stage {
         let camera = camera(&list.camera, viewport);
         let pixels_per_rad =
             viewport.height as f32 / (2.0 * (0.5 * list.camera.field_of_view_rad as f32).tan());
-        self.balls.take(list, settings, pixels_per_rad)?;
+        self.shows_room = settings.room && self.room.is_some();
+        self.balls.take(list, settings, self.shows_room, pixels_per_rad)?;
         if let Some(cue) = &list.cue {
             let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
             self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
         }
-        if self.is_plain(settings) && self.plan.is_none() {
-            self.plan = Some(self.seen_from_above()?);
+        let is_old = self.plan.as_ref().is_none_or(|(of, _)| *of != self.shows_room);
+        if self.is_plain(settings) && is_old {
+            self.plan = Some((self.shows_room, self.seen_from_above()?));
         }
         let cue = list.cue.as_ref().map(|_| &self.cue);
         match settings.shadows {
             Shadows::Maps => {
-                let frame = if self.facts.bed.x > 0.0 { self.outer } else { vec2(2.0, 1.0) };
+                let frame = if self.bed.x > 0.0 { self.outer } else { vec2(2.0, 1.0) };
                 let maps = self.maps.get_or_insert_with(|| Maps::new(&self.context, frame));
-                maps.draw(&self.balls, cue, self.facts)?;
+                maps.draw(&self.balls, cue, Facts { bed: self.bed, room: &self.no_light })?;
             }
             Shadows::Volumes => {
                 let volumes = match &mut self.volumes {
                     Some(volumes) => volumes,
                     none => none.insert(Volumes::new(&self.context)?),
                 };
-                let told = Told { shader: Shader::Depth, tell: &|_| {}, facts: self.facts };
-                let meshes = self.parts.iter().map(|(_, mesh)| mesh).chain(cue);
-                let lowest = if self.facts.bed.x > 0.0 { UNDER_CLOTH_M } else { -4.0 };
+                let facts = Facts { bed: self.bed, room: &self.no_light };
+                let told = Told { shader: Shader::Depth, tell: &|_| {}, facts };
+                let shows_room = self.shows_room;
+                let parts = self.parts.iter().filter(|part| !(shows_room && part.is_of_room));
+                let meshes = parts.map(|part| &part.mesh).chain(cue);
+                let lowest = if self.bed.x > 0.0 { UNDER_CLOTH_M } else { -4.0 };
                 volumes.draw(&self.balls, list.cue.as_ref(), lowest, &camera, || {
                     meshes.for_each(|mesh| mesh.render_with_material(&told, &camera, &[]));
                 })?;
@@ -186,7 +222,9 @@ impl Stage {
             _ => {}
         };
         // Balls hide much of the cloth, so they come first.
-        self.balls.draw(settings, camera, &self.facts, &tell_shadows);
+        let room = if self.shows_room { &self.light } else { &self.no_light };
+        let facts = Facts { bed: self.bed, room };
+        self.balls.draw(settings, camera, &facts, &tell_shadows);
         if list.cue.is_some() {
             self.render(&self.cue, Shader::Painted, &|_| {}, camera);
         }
@@ -195,7 +233,9 @@ impl Stage {
             shadows: if shadows == Shadows::Soft { 0 } else { shadow_number(shadows) },
             has_detail: settings.cloth_detail,
         };
-        if let Some(plan) = self.plan.as_ref().filter(|_| self.is_plain(settings)) {
+        if let Some(plan) =
+            self.plan.as_ref().filter(|_| self.is_plain(settings)).map(|(_, plan)| plan)
+        {
             let (frame, outer) = (self.plan_frame(), self.outer);
             let tell = |program: &Program| {
                 program.use_uniform_if_required("outer", outer);
@@ -204,7 +244,7 @@ impl Stage {
                     program.use_texture("plan", plan);
                 }
             };
-            for (kind, mesh) in &self.parts {
+            for Part { kind, mesh, .. } in self.seen_parts() {
                 match *kind {
                     FLOOR => self.render(mesh, Shader::PlanFloor, &tell, camera),
                     // They are under what is seen from above.
@@ -218,8 +258,13 @@ impl Stage {
         } else {
             self.parts(finish, camera, &tell_shadows);
         }
+        if let Some(room) = self.room.as_ref().filter(|_| self.shows_room) {
+            room.draw(&self.light, self.bed, camera);
+        }
         if shadows == Shadows::Soft {
-            self.balls.draw_contacts(list, camera, &self.facts, &self.pockets);
+            let room = if self.shows_room { &self.light } else { &self.no_light };
+            let facts = Facts { bed: self.bed, room };
+            self.balls.draw_contacts(list, camera, &facts, &self.pockets);
             if let Some(cue) = &list.cue {
                 self.shade_cue(cue, camera);
             }
@@ -235,9 +280,19 @@ impl Stage {
         }
     }
 
-    /// Draws table and room, every pixel in its light.
+    /// What all shaders know.
+    fn facts(&self) -> Facts<'_> {
+        Facts { bed: self.bed, room: if self.shows_room { &self.light } else { &self.no_light } }
+    }
+
+    /// The parts that are drawn now: a room brings some of its own.
+    fn seen_parts(&self) -> impl Iterator<Item = &Part> {
+        self.parts.iter().filter(|part| !(self.shows_room && part.is_of_room))
+    }
+
+    /// Draws the table, and what there is without a room, every pixel in its light.
     fn parts(&self, finish: Finish, camera: &dyn Viewer, tell_shadows: &dyn Fn(&Program)) {
-        for (kind, mesh) in &self.parts {
+        for Part { kind, mesh, .. } in self.seen_parts() {
             let tell = self.told(*kind, tell_shadows);
             self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
         }
@@ -262,7 +317,7 @@ impl Stage {
 
     /// Whether the table is drawn from one picture of itself.
     fn is_plain(&self, settings: &PictureSettings) -> bool {
-        self.facts.bed.x > 0.0 && settings.is_table_plain()
+        self.bed.x > 0.0 && settings.is_table_plain()
     }
 
     /// Half the length and width of what is in that picture [m].
@@ -297,7 +352,7 @@ impl Stage {
     }
 
     fn render(&self, mesh: &Mesh, shader: Shader, tell: &dyn Fn(&Program), camera: &dyn Viewer) {
-        let material = Told { shader, tell, facts: self.facts };
+        let material = Told { shader, tell, facts: self.facts() };
         mesh.render_with_material(&material, camera, &[]);
     }
 
@@ -310,7 +365,7 @@ impl Stage {
         let side = ahead.perp().normalize_or_zero() * CUE_SHADOW_M;
         let ahead = ahead + ahead.normalize_or_zero() * CUE_SHADOW_M;
         let program = &self.cue_shadow;
-        self.facts.tell(program, camera);
+        self.facts().tell(program, camera);
         program.use_uniform("middle", vec3(middle.x, middle.y, CUE_SHADOW_LIFT_M));
         program.use_uniform("along", vec2(ahead.x, ahead.y));
         program.use_uniform("aside", vec2(side.x, side.y));

@@ -38,6 +38,7 @@ impl Preset {
     #[must_use]
     pub fn applied(self, settings: PictureSettings) -> PictureSettings {
         let cheap = PictureSettings {
+            room: true,
             shadows: Shadows::Soft,
             triangles: 320,
             texture: 64,
@@ -50,7 +51,9 @@ impl Preset {
             ..settings
         };
         match self {
-            Preset::VeryLow => PictureSettings { shadows: Shadows::Off, render_scale: 60, ..cheap },
+            Preset::VeryLow => {
+                PictureSettings { room: false, shadows: Shadows::Off, render_scale: 60, ..cheap }
+            }
             Preset::Low => cheap,
             Preset::Medium => PictureSettings {
                 triangles: 1280,

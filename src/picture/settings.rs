@@ -98,6 +98,8 @@ impl FrameLimit {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PictureSettings {
+    /// The room round a table, in its baked light.
+    pub room: bool,
     /// How shadows are made.
     pub shadows: Shadows,
     /// Most triangles of a ball: 320, 1280 or 5120.
@@ -131,6 +133,7 @@ pub struct PictureSettings {
 impl Default for PictureSettings {
     fn default() -> Self {
         Preset::Medium.applied(PictureSettings {
+            room: true,
             shadows: Shadows::Soft,
             triangles: 1280,
             texture: 256,
@@ -188,6 +191,8 @@ fn values(option: PictureOption) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PictureOption {
+    /// [`PictureSettings::room`].
+    Room,
     /// [`PictureSettings::shadows`].
     Shadows,
     /// [`PictureSettings::triangles`].
@@ -242,7 +247,8 @@ fn nearest<T: Copy + Into<u32>>(list: &[T], value: T) -> usize {
 
 impl PictureOption {
     /// All.
-    pub const ALL: [PictureOption; 14] = [
+    pub const ALL: [PictureOption; 15] = [
+        PictureOption::Room,
         PictureOption::Shadows,
         PictureOption::Triangles,
         PictureOption::Texture,
@@ -262,6 +268,7 @@ impl PictureOption {
     /// Its name in files and on the command line.
     pub fn key(self) -> &'static str {
         match self {
+            PictureOption::Room => "room",
             PictureOption::Shadows => "shadows",
             PictureOption::Triangles => "triangles",
             PictureOption::Texture => "texture",
@@ -291,7 +298,8 @@ impl PictureOption {
             PictureOption::FrameLimit => &["30", "60", "120", "off"],
             PictureOption::HudScale => &["75", "100", "125", "150", "200"],
             PictureOption::Stereo => &["off", "left", "middle", "right"],
-            PictureOption::NormalMap
+            PictureOption::Room
+            | PictureOption::NormalMap
             | PictureOption::ClothDetail
             | PictureOption::LevelOfDetail
             | PictureOption::Marks
@@ -304,6 +312,7 @@ impl PictureSettings {
     /// Which of its [values](PictureOption::values) an option has.
     pub fn place(&self, option: PictureOption) -> usize {
         match option {
+            PictureOption::Room => self.room.into(),
             PictureOption::Shadows => place(&SHADOWS, self.shadows),
             PictureOption::Triangles => nearest(&TRIANGLES, self.triangles),
             PictureOption::Texture => nearest(&TEXTURES, self.texture),
@@ -325,6 +334,7 @@ impl PictureSettings {
     pub fn put(&mut self, option: PictureOption, place: usize) {
         let place = place.min(option.values().len() - 1);
         match option {
+            PictureOption::Room => self.room = place == 1,
             PictureOption::Shadows => self.shadows = SHADOWS[place],
             PictureOption::Triangles => self.triangles = TRIANGLES[place],
             PictureOption::Texture => self.texture = TEXTURES[place],

@@ -33,6 +33,36 @@ float wooden(vec2 scale) {
 #endif
 }
 
+// How much of baked light is left where lamps are hidden.
+float left_of(vec3 at, vec3 n) {
+#if SHADOWS >= 2
+    vec3 share = shares(at, n);
+    return mix(1.0, dot(share, seen_of_lamps(at, n)) / max(dot(share, vec3(1.0)), 1e-4), 0.9);
+#else
+    return 1.0;
+#endif
+}
+
+// Light on this kind of surface: baked where there is a room, else that of the lamps through what
+// is open of it.
+vec3 falling(vec3 at, vec3 n, float open) {
+#if ROOM == 1 && KIND == 0
+    vec3 above = baked(bed_light.xy + at.xy * bed_light.zw);
+    return above * (smoothstep(-0.03, -0.001, at.z) * left_of(at, n));
+#elif ROOM == 1 && KIND == 1
+    // The map is seen from above; noses face the lamp.
+    vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
+    vec3 nose = received(at, n, vec3(1.0));
+    return mix(nose, above, smoothstep(0.1, 0.8, n.z)) * (open * left_of(at, n));
+#elif ROOM == 1 && (KIND == 2 || KIND == 4 || KIND == 6)
+    // Sides of rails look away from the lamp.
+    vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
+    return mix(side_light, above, smoothstep(0.1, 0.8, n.z)) * left_of(at, n);
+#else
+    return received(at, n, seen_of_lamps(at, n)) * open;
+#endif
+}
+
 void main() {
     vec3 n = normalize(nor);
     vec3 v = normalize(eye - pos);
@@ -97,14 +127,14 @@ void main() {
     vec2 away = max(abs(pos.xy) - outer, 0.0);
     open = mix(0.10, 0.62, smoothstep(0.0, 0.9, length(away)));
 #endif
-    vec3 light = albedo * received(pos, n, seen_of_lamps(pos, n)) * open;
+    vec3 light = albedo * falling(pos, n, open);
     if (gloss > 0.0) {
         float rim = 1.0 - max(dot(n, v), 0.0);
         float fresnel = 0.045 + 0.5 * rim * rim * rim * rim;
         light += surroundings(pos, reflect(-v, n), 0.12) * fresnel * gloss * open;
     }
 #if KIND == 8
-    light = mix(light, ROOM, smoothstep(1.2, 3.2, length(away)));
+    light = mix(light, DARK, smoothstep(1.2, 3.2, length(away)));
 #endif
     colour = vec4(developed(light), 1.0);
 }
