@@ -229,7 +229,7 @@ impl Room {
             whole(vertex.normal * 0.01).into_iter().for_each(|x| hash.u64(x));
             whole(vertex.light.extend(0.0) * 0.001).into_iter().for_each(|x| hash.u64(x));
             let finish = self.surfaces.finish_of(vertex);
-            for channel in finish.albedo().into_iter().chain(finish.emission()) {
+            for channel in finish.colour.into_iter().chain(finish.emission) {
                 hash.u64(u64::from(channel.to_bits()));
             }
         }

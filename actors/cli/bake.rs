@@ -38,7 +38,7 @@ pub struct BakeArgs {
     pub out: PathBuf,
 
     /// Rays per texel and bounce.
-    #[arg(long, value_name = "N", default_value = "256")]
+    #[arg(long, value_name = "N", default_value = "128")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub samples: u32,
 

@@ -72,7 +72,7 @@ impl RoomStage {
         let surfaces = &room.surfaces;
         let mirrors = |corner: u32| {
             let finish = surfaces.finish_of(&surfaces.vertices[corner as usize]);
-            GLOSS_LEAST <= finish.gloss || 0.0 < finish.glow
+            GLOSS_LEAST <= finish.gloss || finish.shines()
         };
         // The upper side of the table is drawn by others.
         let mut numbers = vec![u32::MAX; surfaces.vertices.len()];
@@ -98,8 +98,11 @@ impl RoomStage {
         let vector = |v: DVec3| vec3(v.x as f32, v.y as f32, v.z as f32);
         let paint = |vertex: &&Vertex| {
             let finish = surfaces.finish_of(vertex);
-            let own = if finish.glow > 0.0 { -finish.glow.min(GLARE) } else { finish.gloss };
-            Vec3::from(finish.colour).extend(own)
+            let brightest = finish.emission.into_iter().fold(0.0, f32::max);
+            match finish.shines() {
+                true => (Vec3::from(finish.emission) / brightest).extend(-brightest.min(GLARE)),
+                false => Vec3::from(finish.colour).extend(finish.gloss),
+            }
         };
         let grain = |vertex: &&Vertex| {
             let grain = surfaces.finish_of(vertex).grain;

@@ -242,7 +242,7 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_through_all_finds() {
         let mut seed = 7;
-        let mut point = |seed: &mut u32, scale: f32| {
+        let point = |seed: &mut u32, scale: f32| {
             Vec3::new(random(seed), random(seed), random(seed)) * scale
         };
         let triangles: Vec<[Vec3; 3]> = (0..700)

@@ -11,28 +11,32 @@ pub struct Finish {
     pub colour: [f32; 3],
     /// How much of a mirror it is: 0 for cloth, 1 for lacquer, more for metal.
     pub gloss: f32,
-    /// What it gives off by itself is its colour times this [radiance, in units of the light that
-    /// falls on a white surface in full light].
-    pub glow: f32,
+    /// What it gives off by itself [radiance, in units of the light that falls on a white surface
+    /// in full light].
+    pub emission: [f32; 3],
 }
 
 impl Finish {
     const fn of(grain: Grain, colour: [f32; 3], gloss: f32) -> Self {
-        Finish { grain, colour, gloss, glow: 0.0 }
+        Finish { grain, colour, gloss, emission: [0.0; 3] }
     }
 
-    const fn lit(colour: [f32; 3], glow: f32) -> Self {
-        Finish { grain: Grain::Plain, colour, gloss: 0.0, glow }
+    /// A lamp of this colour, so many times as bright; it throws back nothing.
+    const fn lit(colour: [f32; 3], times: f32) -> Self {
+        let [r, g, b] = colour;
+        let emission = [r * times, g * times, b * times];
+        Finish { grain: Grain::Plain, colour: [0.0; 3], gloss: 0.0, emission }
     }
 
-    /// What it gives off.
-    pub fn emission(&self) -> [f32; 3] {
-        self.colour.map(|channel| channel * self.glow)
+    /// Something matt that throws back and gives off the same in all colours.
+    pub const fn grey(albedo: f32, emission: f32) -> Self {
+        let emission = [emission; 3];
+        Finish { emission, ..Finish::of(Grain::Plain, [albedo; 3], 0.0) }
     }
 
-    /// What it throws back; lights throw back nothing.
-    pub fn albedo(&self) -> [f32; 3] {
-        if self.glow > 0.0 { [0.0; 3] } else { self.colour }
+    /// Whether it gives off anything.
+    pub fn shines(&self) -> bool {
+        self.emission != [0.0; 3]
     }
 }
 

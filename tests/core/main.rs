@@ -48,6 +48,8 @@ mod rack;
 mod renderer;
 /// The report: closed forms, orders, who is best, what breaks.
 mod report;
+/// The room round a table, and the light in it.
+mod room;
 /// The referee, the rule console and the scenarios of the paper's eight-ball.
 mod rules;
 /// Scene files: what is wrong in them is said in one exact line.

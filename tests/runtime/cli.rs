@@ -59,6 +59,7 @@ fn every_command_teaches_with_an_example() {
         "tournament",
         "replay",
         "render",
+        "bake",
         "scene",
         "scenes",
         "rules",
@@ -107,6 +108,8 @@ fn a_mistyped_command_line_exits_with_2() {
         &["play", "--speed", "-1"],
         &["--seed", "3", "simulate"],
         &["render", "--scene", "one_ball", "--out", "picture.jpg"],
+        &["render", "--scene", "one_ball", "--out", "picture.png", "--eye", "1,2"],
+        &["bake", "--samples", "0"],
     ] {
         let output = program(wrong);
         assert_eq!(output.status.code(), Some(2), "{wrong:?}");

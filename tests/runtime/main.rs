@@ -47,6 +47,9 @@ mod json;
 mod left_out;
 /// The licences of what is linked.
 mod licences;
+/// Shipped light fits its room and is the light of it.
+#[cfg(feature = "renderer")]
+mod light;
 /// Full queues and slow listeners.
 mod load;
 /// What the program says about itself, and where.

@@ -182,3 +182,43 @@ fn chances_stand_on_the_table_and_their_panel_beside_it() {
     assert!(differ(SIZE.0 - 30, 30), "no panel");
     assert!(!differ(20, SIZE.1 - 20), "written where nothing is");
 }
+
+#[test]
+fn a_billiard_table_stands_in_a_room_and_a_course_on_plain_ground() {
+    let mut lists = Vec::new();
+    for scene in ["eight_ball", "minigolf"] {
+        let stage = Stage::new(&load_scene(scene).unwrap(), scene).unwrap();
+        let camera = CameraPose {
+            eye: DVec3::new(-3.5, -2.0, 0.4),
+            target: DVec3::new(1.0, 1.0, 0.9),
+            ..CameraPose::default()
+        };
+        let view = HumanView { camera, ..HumanView::default() };
+        let list = DrawList::new(&Snapshot::default(), &view, &Radii::default());
+        let Some(pixels) = picture(&stage.table, &list) else { return };
+        lists.push(pixels);
+    }
+    // Above the horizon: bricks, shelves, lamps; or nothing at all.
+    let colours = |pixels: &[[u8; 4]]| {
+        let upper = &pixels[..(SIZE.0 * SIZE.1 / 4) as usize];
+        upper.iter().collect::<std::collections::BTreeSet<_>>().len()
+    };
+    assert!(1000 < colours(&lists[0]), "{} colours", colours(&lists[0]));
+    assert!(colours(&lists[1]) < 10, "{} colours", colours(&lists[1]));
+}
+
+#[test]
+fn neither_lamp_nor_vault_hides_the_table_from_above() {
+    for name in ["pool-9ft", "snooker-12ft"] {
+        let table = Table::preset(name).unwrap();
+        let length_m = table.bed.unwrap().length_m;
+        let camera = CameraPose::above(length_m);
+        let view = HumanView { camera, ..HumanView::default() };
+        let list = DrawList::new(&Snapshot::default(), &view, &Radii::default());
+        let Some(pixels) = picture(&table, &list) else { return };
+        for x in (60..260).step_by(10) {
+            let [r, g, b] = at(&pixels, x, 105);
+            assert!(g > r + 20 && g > b + 10, "{name}: {r} {g} {b} at {x}");
+        }
+    }
+}
