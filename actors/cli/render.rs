@@ -10,7 +10,7 @@ mod thought;
 use super::{Status, not_negative, size};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
-use hapticbillard::picture::{PictureSettings, Preset, Smoothing};
+use hapticbillard::picture::Preset;
 use hapticbillard::scene::Entrant;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
@@ -23,6 +23,7 @@ use {
     hapticbillard::ids::BallId,
     hapticbillard::input::{CameraPose, HumanMode, HumanView, first_met},
     hapticbillard::physics::Snapshot,
+    hapticbillard::picture::{PictureSettings, Smoothing},
     hapticbillard::renderer::{DrawList, Hud, Radii, draw_thoughts, draw_vectors},
     hapticbillard::replay::Recording,
     hapticbillard::scene::Overrides,
@@ -129,6 +130,7 @@ pub struct PictureArgs {
     pub options: Vec<String>,
 }
 
+#[cfg(feature = "renderer")]
 impl PictureArgs {
     /// What is asked for; smooth edges if nothing else is, because a file is drawn once.
     pub fn settings(&self) -> Result<PictureSettings, Error> {

@@ -25,7 +25,8 @@ fn each_command_has_a_page_with_its_options_and_examples() {
     let read = |page: &str| std::fs::read_to_string(folder.join(page)).unwrap();
     for command in &commands {
         let page = read(&format!("hapticbillard-{command}.1"));
-        assert!(page.contains(&format!("hapticbillard\\-{command} \\- ")), "{page}");
+        let escaped = command.replace('-', "\\-");
+        assert!(page.contains(&format!("hapticbillard\\-{escaped} \\- ")), "{page}");
         assert!(page.contains(".SH OPTIONS"), "{page}");
     }
     assert!(read("hapticbillard.1").contains("hapticbillard\\-simulate(1)"));

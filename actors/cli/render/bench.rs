@@ -1,6 +1,6 @@
 //! `hapticbillard bench-render`: the paper's tables of frames per second (section 4.4.1).
 
-use super::super::{Status, json_line, not_negative, progress, size};
+use super::super::{Status, not_negative, size};
 use clap::Args;
 use hapticbillard_actors::error::Error;
 use std::io::Write;
@@ -56,6 +56,7 @@ pub struct BenchRenderArgs {
 /// Measures.
 #[cfg(feature = "renderer")]
 pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
+    use super::super::{json_line, progress};
     use hapticbillard::events::FactSet;
     use hapticbillard::input::HumanView;
     use hapticbillard::picture::{BenchRow, Environment, FrameTimes, bench_markdown, bench_rows};
@@ -137,7 +138,6 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
 
 /// Says that there is nothing to render with.
 #[cfg(not(feature = "renderer"))]
-pub fn run(args: &BenchRenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
-    let _ = (args, json_line::<()>, progress);
+pub fn run(_: &BenchRenderArgs, _: &mut dyn Write) -> Result<Status, Error> {
     super::no_pictures("bench-render")
 }

@@ -105,6 +105,9 @@ mod filming {
     use std::io::{self, Write};
     use std::sync::Arc;
 
+    /// Takes the frames of a film with their numbers.
+    type Writing<'a> = &'a mut dyn FnMut(u64, &[[u8; 4]]) -> Result<(), Error>;
+
     /// Who knows the world at every moment of a film, in ascending order.
     enum World {
         /// Balls that nobody plays with.
@@ -200,7 +203,7 @@ mod filming {
         let frames = clock.frames_in(args.seconds);
         let bar = progress(frames, "drawing");
         let mut drawn = 0;
-        let mut next = |write: &mut dyn FnMut(u64, &[[u8; 4]]) -> Result<(), Error>| {
+        let mut next = |write: Writing<'_>| {
             for frame in 0..frames {
                 let Some(world) = world.at(clock.moment_s(frame))? else { break };
                 write(frame, &camera.shoot(&world)?)?;
