@@ -25,11 +25,12 @@ pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) 
     for y in [-1.15, -0.1, 1.0] {
         b.stand(at + DVec3::new(FRONT_M - 0.42, y, 0.0), 0.3 * y);
         stool(b, 0.74);
-        obstacles.push(Obstacle::round(FRONT_M - 0.42, y, 0.2, 0.0, 0.78));
     }
-    let counter_to = DVec3::new(BACK_M + 0.06, HALF_M + 0.08, COUNTER_M + 0.05);
-    let counter_from = DVec3::new(FRONT_M - 0.2, -HALF_M - 0.08, 0.0);
-    obstacles.push(Obstacle { least: counter_from, most: counter_to });
+    // Stools, counter, and who serves there; shelves above.
+    obstacles.push(Obstacle {
+        least: DVec3::new(FRONT_M - 0.65, -HALF_M - 0.08, 0.0),
+        most: DVec3::new(EAST_M, HALF_M + 0.08, COUNTER_M + 0.05),
+    });
     obstacles.push(Obstacle {
         least: DVec3::new(EAST_M - 0.36, -HALF_M, 0.0),
         most: DVec3::new(EAST_M, HALF_M, 2.08),

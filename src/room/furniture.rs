@@ -45,17 +45,23 @@ pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) 
     let (x, y) = (-0.75, -2.75);
     b.stand(DVec3::new(x, y, floor), 0.0);
     high_table(b);
-    obstacles.push(Obstacle::round(x, y, 0.36, 0.0, 1.12));
     for (x, y) in [(-1.35, -2.95), (-0.2, -3.0)] {
         b.stand(DVec3::new(x, y, floor), x);
         stool(b, 0.74);
-        obstacles.push(Obstacle::round(x, y, 0.2, 0.0, 0.78));
     }
     for (x, y) in [(WEST_M + 0.42, -2.9), (WEST_M + 0.50, -2.14)] {
         b.stand(DVec3::new(x, y, floor), y);
         barrel(b);
-        obstacles.push(Obstacle::round(x, y, 0.36, 0.0, 0.92));
     }
+    // What stands together is one obstacle, up to its wall: nobody is caught in between.
+    obstacles.push(Obstacle {
+        least: DVec3::new(-1.56, -WIDE_M, 0.0),
+        most: DVec3::new(0.01, -2.39, 1.12),
+    });
+    obstacles.push(Obstacle {
+        least: DVec3::new(WEST_M, -WIDE_M, 0.0),
+        most: DVec3::new(WEST_M + 0.86, -1.78, 0.92),
+    });
     obstacles.push(Obstacle {
         least: DVec3::new(-1.35, WIDE_M - 0.2, 0.0),
         most: DVec3::new(-0.25, WIDE_M, 2.1),

@@ -15,16 +15,8 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// Round something of this radius.
-    pub(super) fn round(x: f64, y: f64, radius: f64, low: f64, high: f64) -> Self {
-        Obstacle {
-            least: DVec3::new(x - radius, y - radius, low),
-            most: DVec3::new(x + radius, y + radius, high),
-        }
-    }
-
-    /// The shortest way out for a sphere that is in it; zero outside.
-    fn way_out(&self, point: DVec3, radius: f64) -> DVec3 {
+    /// The shortest way out for a sphere that is in it, into a place that is `free`; zero outside.
+    fn way_out(&self, point: DVec3, radius: f64, free: impl Fn(DVec3) -> bool) -> DVec3 {
         let nearest = point.clamp(self.least, self.most);
         let away = point - nearest;
         let distance = away.length();
@@ -44,6 +36,7 @@ impl Obstacle {
         ];
         let (depth, way) = sides
             .into_iter()
+            .filter(|(depth, way)| free(point + *way * (depth + radius)))
             .reduce(|best, side| if side.0 < best.0 { side } else { best })
             .unwrap_or((0.0, DVec3::Z));
         way * (depth + radius)
@@ -59,7 +52,8 @@ impl Room {
         for _ in 0..4 {
             let before = at;
             for obstacle in &self.obstacles {
-                at += obstacle.way_out(at, radius);
+                let free = |place: DVec3| self.within(place, radius).distance(place) < 1e-9;
+                at += obstacle.way_out(at, radius, free);
             }
             at = self.within(at, radius);
             if at == before {

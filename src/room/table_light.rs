@@ -37,7 +37,7 @@ pub(super) struct TableLight {
 /// Adds a table.
 pub(super) fn build(b: &mut Builder, table: &TableParameters, parts: &[DisplayPart]) -> TableLight {
     let half = 0.5 * DVec2::new(table.length_m, table.width_m);
-    // The lips of the pockets belong to the bed's part.
+    // The fronts of the pockets' lips lie a little beyond the noses.
     let bed = from_above(b, half + DVec2::splat(0.04), BED);
     let rails = from_above(b, DVec2::new(table.outer_x_m(), table.outer_y_m()), RAILS);
     let mut sides = Vec::new();
@@ -99,7 +99,10 @@ fn upper_side(b: &mut Builder, part: &DisplayPart, place: &FromAbove) {
     b.begin(Group::TableTop);
     let finish = b.finish(of_table(part.material));
     add(b, part, finish, |corners| {
-        let lights = corners.map(|p| place.middle + place.scale * p.truncate());
+        // The backs of the pockets' lips lie beyond the bed.
+        let last = 2.0 * place.middle;
+        let lights =
+            corners.map(|p| (place.middle + place.scale * p.truncate()).clamp(DVec2::ZERO, last));
         Some((place.chart, lights))
     });
 }

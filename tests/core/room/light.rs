@@ -39,12 +39,21 @@ fn a_furnace_is_as_bright_as_its_series() {
             let [x, y] = baker.place(k);
             let light = baker.total(x, y).x;
             sum += light;
-            worst = worst.max((light / expected - 1.0).abs());
+            // In the edges a lamp begins where the texel is, and few samples see it.
+            let chart = surfaces.charts.iter().find(|chart| {
+                (chart.x..chart.x + chart.columns).contains(&x)
+                    && (chart.y..chart.y + chart.rows).contains(&y)
+            });
+            let chart = chart.unwrap();
+            let is_inner = |at: u32, from: u32, count: u32| from + 1 < at && at + 2 < from + count;
+            if is_inner(x, chart.x, chart.columns) && is_inner(y, chart.y, chart.rows) {
+                worst = worst.max((light / expected - 1.0).abs());
+            }
         }
         let mean = sum / baker.texels() as f32;
+        println!("albedo {albedo}: mean {mean:.4}, known {expected:.4}, worst inside {worst:.4}");
         assert!((mean / expected - 1.0).abs() < 0.01, "albedo {albedo}: {mean}, not {expected}");
-        // In the edges a lamp begins where the texel is.
-        assert!(worst < 0.25, "albedo {albedo}: {worst}");
+        assert!(worst < 0.1, "albedo {albedo}: {worst}");
     }
 }
 
@@ -98,8 +107,8 @@ fn lamp_error(samples: u32) -> f64 {
 fn light_under_a_rectangular_lamp_is_that_of_the_closed_form() {
     let errors = [4, 16, 64, 256].map(lamp_error);
     println!("worst error at 4, 16, 64, 256 samples: {errors:.4?}");
-    assert!(errors[0] < 0.12 && errors[1] < 0.04 && errors[2] < 0.012 && errors[3] < 0.006);
-    assert!(errors[3] < 0.3 * errors[0], "more samples do not help: {errors:?}");
+    assert!(errors[0] < 0.25 && errors[1] < 0.13 && errors[2] < 0.035 && errors[3] < 0.014);
+    assert!(errors[3] < 0.15 * errors[0], "more samples do not help: {errors:?}");
 }
 
 #[test]
@@ -109,12 +118,12 @@ fn what_stands_before_the_lamp_throws_a_shadow() {
     let turned = [plate[0], plate[2], plate[1]];
     let black = Finish::grey(0.0, 0.0);
     let surfaces = under_a_lamp(0.8, &[(plate, black), (turned, black)]);
-    let baker = bake(&surfaces, 64, 1);
+    let baker = bake(&surfaces, 512, 1);
     let chart = surfaces.charts[0];
     let known = 3.0 * factor([-1.2, -1.1], [-0.6, -0.7], 0.8);
     assert_eq!(baker.total(chart.x + 10, chart.y + 10).x, 0.0);
     let corner = f64::from(baker.total(chart.x + 19, chart.y + 19).x);
-    assert!((corner / known - 1.0).abs() < 0.03, "{corner}, not {known}");
+    assert!((corner / known - 1.0).abs() < 0.05, "{corner}, not {known}");
 }
 
 #[test]
