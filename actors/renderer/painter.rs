@@ -102,8 +102,8 @@ impl Painter {
         })
     }
 
-    /// Draws a picture that nobody sees, with one of everything in it: so that no shader is compiled
-    /// and no texture computed in the middle of a game.
+    /// Draws a picture that nobody sees, with one of everything in it: so that no shader is
+    /// compiled and no texture computed in the middle of a game.
     ///
     /// # Errors
     /// The graphics card's compiler does not take a shader, or it gives no room.

@@ -19,8 +19,8 @@ pub type Corner = [f32; 3];
 const REACH_M: f32 = 4.0;
 
 /// The body of darkness that a rod with round ends throws behind it: its outline as a lamp sees it,
-/// first near, then far from the lamp, in the same order; it ends at the height `lowest` [m]. None if
-/// the lamp looks along the rod.
+/// first near, then far from the lamp, in the same order; it ends at the height `lowest` [m]. None
+/// if the lamp looks along the rod.
 pub fn rod_shadow(lamp: [f32; 3], ends: [([f32; 3], f32); 2], lowest: f32) -> Option<[Corner; 8]> {
     use glam::Vec3;
     let lamp = Vec3::from(lamp);

@@ -7,8 +7,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
-As in the paper: a shot that is the same every time, the whole table in the picture, neither limit nor
-smooth edges, and settings that touch the balls only; then the presets. Every row is measured in
+As in the paper: a shot that is the same every time, the whole table in the picture, neither limit
+nor smooth edges, and settings that touch the balls only; then the presets. Every row is measured in
 turn, again and again, so that a busy machine is not busy for one of them alone. A picture counts
 from its begin until the graphics card has drawn it; it is not shown.
 
@@ -29,11 +29,13 @@ pub struct BenchRenderArgs {
     pub size: (u32, u32),
 
     /// How often every row is measured.
-    #[arg(long, value_name = "N", default_value = "6", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value = "6")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,
 
     /// Pictures of a row in a round.
-    #[arg(long, value_name = "N", default_value = "10", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value = "10")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
 
     /// Seconds of the game that the pictures are spread over.

@@ -6,9 +6,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
-Frame n shows the game at exactly n / FPS seconds, however long it takes to draw. A name that ends in
-.y4m becomes one file that encoders read, such as `ffmpeg -i shot.y4m shot.mp4`; any other name is a
-folder of PNG files.
+Frame n shows the game at exactly n / FPS seconds, however long it takes to draw. A name that ends
+in .y4m becomes one file that encoders read, such as `ffmpeg -i shot.y4m shot.mp4`; any other name
+is a folder of PNG files.
 
 Examples:
   hapticbillard film --scene break_shot --seconds 3 --out break.y4m
@@ -40,7 +40,8 @@ pub struct FilmArgs {
     pub seconds: f64,
 
     /// Frames per second.
-    #[arg(long, value_name = "N", default_value = "60", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value = "60")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub fps: u32,
 
     /// Seconds of the game per second of the film, in hundredths at least.

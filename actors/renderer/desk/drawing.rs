@@ -16,8 +16,8 @@ impl Desk<'_> {
         self.lobby.menu().map_or(self.picture, |menu| menu.settings.picture)
     }
 
-    /// Gets everything ready that pictures of what is shown now need, and says meanwhile how far that
-    /// has come.
+    /// Gets everything ready that pictures of what is shown now need, and says meanwhile how far
+    /// that has come.
     pub(super) fn warm_up(&mut self) {
         self.show_progress(0.5);
         let Some((list, _)) = self.seen() else { return };

@@ -107,10 +107,10 @@ fn what_touches_balls_changes_balls_only() {
     let Some(mut shot) = Shot::new(close()) else { return };
     shot.check(PictureSettings { triangles: 320, ..rich() }, 10, ON_BALLS);
     shot.check(PictureSettings { texture: 64, ..rich() }, 10, ON_BALLS);
-    shot.check(PictureSettings { environment: Environment::Room, ..rich() }, 100, ON_BALLS);
-    shot.check(PictureSettings { environment: Environment::Off, ..rich() }, 500, ON_BALLS);
-    shot.check(PictureSettings { normal_map: false, ..rich() }, 100, ON_BALLS);
-    shot.check(PictureSettings { level_of_detail: true, ..rich() }, 100, ON_BALLS);
+    shot.check(PictureSettings { environment: Environment::Room, ..rich() }, 40, ON_BALLS);
+    shot.check(PictureSettings { environment: Environment::Off, ..rich() }, 300, ON_BALLS);
+    shot.check(PictureSettings { normal_map: false, ..rich() }, 40, ON_BALLS);
+    shot.check(PictureSettings { level_of_detail: true, ..rich() }, 40, ON_BALLS);
 }
 
 #[test]

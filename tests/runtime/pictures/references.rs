@@ -1,8 +1,9 @@
-//! Pictures against stored ones, by a measure that sees as eyes do: structure by SSIM on brightness,
-//! colours by their difference. Another driver may draw other pixels, but no other picture.
+//! Pictures against stored ones, by a measure that sees as eyes do: structure by SSIM on
+//! brightness, colours by their difference. Another driver may draw other pixels, but no other
+//! picture.
 //!
-//! `UPDATE_PICTURES=1 cargo test -p hapticbillard-actors --test runtime references` stores them anew;
-//! look at them before they are committed.
+//! `UPDATE_PICTURES=1 cargo test -p hapticbillard-actors --test runtime references` stores them
+//! anew; look at them before they are committed.
 
 use super::{smooth, studio};
 use glam::DVec3;
