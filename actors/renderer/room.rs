@@ -35,6 +35,7 @@ pub struct RoomStage {
     lamp: ElementBuffer<u32>,
     tiles: Texture2DArray,
     crown_m: f64,
+    obstacles: Vec<(DVec3, DVec3)>,
     outer: glam::DVec2,
 }
 
@@ -134,8 +135,14 @@ impl RoomStage {
             lamp,
             tiles: tiles(context),
             crown_m: room.crown_m(),
+            obstacles: room.obstacles.iter().map(|one| (one.least, one.most)).collect(),
             outer: room.outer,
         })
+    }
+
+    /// What stands in it: lower and upper corners [m].
+    pub fn obstacles(&self) -> &[(DVec3, DVec3)] {
+        &self.obstacles
     }
 
     /// Draws it; `bed` is half the bed [m].

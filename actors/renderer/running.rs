@@ -162,9 +162,11 @@ impl Running {
         let ports =
             Ports { raw, view: view_in, world: world_in, film: film_in, sink, meters: measured };
         let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
+        let stage = Stage::new(context, &setup.table)
+            .map_err(|error| RunError::Start(format!("OpenGL: {error}")))?;
+        let room = Room::round(setup.table.bed.as_ref()).with(stage.obstacles().to_vec());
         Ok(Running {
-            stage: Stage::new(context, &setup.table)
-                .map_err(|error| RunError::Start(format!("OpenGL: {error}")))?,
+            stage,
             outbox: Outbox::new(raw_in),
             board: Scoreboard::new(setup.names.clone()),
             heard: setup.heard.map(HeardScreen::new),
@@ -181,7 +183,7 @@ impl Running {
             mail,
             playhead: Playhead::new(setup.first, setup.speed),
             mount: Mount::default(),
-            room: Room::round(setup.table.bed.as_ref()),
+            room,
             drawn_s: 0.0,
             texts: texts(language, &setup.names, setup.game),
             words: Words::new(language).with_keys(bindings),

@@ -280,6 +280,11 @@ impl Stage {
         }
     }
 
+    /// What stands in the room, if there is one: lower and upper corners [m].
+    pub fn obstacles(&self) -> &[(glam::DVec3, glam::DVec3)] {
+        self.room.as_ref().map_or(&[], RoomStage::obstacles)
+    }
+
     /// What all shaders know.
     fn facts(&self) -> Facts<'_> {
         Facts { bed: self.bed, room: if self.shows_room { &self.light } else { &self.no_light } }

@@ -4,7 +4,7 @@ use crate::table::Bed;
 use glam::{DVec2, DVec3};
 
 /// The room round a table, from its floor, and how far its walls are from the middle [m].
-const WALLS: (DVec3, DVec3) = (DVec3::new(-4.0, -3.5, -0.6), DVec3::new(4.0, 3.5, f64::INFINITY));
+const WALLS: (DVec3, DVec3) = (DVec3::new(-4.0, -3.25, -0.6), DVec3::new(4.0, 3.25, f64::INFINITY));
 /// The ceiling that stops an eye on foot [m]; from a view above the table there is none.
 const CEILING_M: f64 = 2.2;
 /// How much wider and longer a table is than its bed, how low it reaches and how high [m].
@@ -35,6 +35,13 @@ impl Room {
             ((-lamp).extend(under), lamp.extend(over)),
         ];
         Room { walls: Some(WALLS), boxes }
+    }
+
+    /// The same with what else stands there: lower and upper corners [m].
+    #[must_use]
+    pub fn with(mut self, boxes: impl IntoIterator<Item = (DVec3, DVec3)>) -> Self {
+        self.boxes.extend(boxes);
+        self
     }
 
     /// The place nearest to `at` [m] where an eye can be that is on its way to another. What hangs
@@ -89,7 +96,7 @@ mod tests {
         assert_eq!(outside(-2.6, -1.1, 1.5), DVec3::new(-2.6, -1.1, 1.5));
         assert_eq!(outside(0.0, 0.0, 0.5), DVec3::new(0.0, 0.0, 0.5));
         let corner = outside(9.0, -9.0, -3.0);
-        assert!(corner.distance(DVec3::new(3.945, -3.445, -0.545)) < 1e-12, "{corner}");
+        assert!(corner.distance(DVec3::new(3.945, -3.195, -0.545)) < 1e-12, "{corner}");
         // Out of the table upwards near its top, aside near its side.
         let above = outside(0.3, 0.2, 0.03);
         assert!(above.truncate() == DVec2::new(0.3, 0.2) && (above.z - 0.1).abs() < 1e-12);
