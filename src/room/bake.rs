@@ -155,7 +155,7 @@ impl<'a> Baker<'a> {
     pub fn light(&self, pass: Pass, k: usize) -> (Vec3, f32) {
         let texel = &self.texels[k];
         match pass {
-            Pass::Direct => (self.from_lamps(texel), 0.0),
+            Pass::Direct => (self.by_lamps(texel), 0.0),
             Pass::Bounce(round) => self.thrown_back(texel, round),
         }
     }
@@ -202,7 +202,7 @@ impl<'a> Baker<'a> {
         LightMap::of(self.surfaces.size, &map)
     }
 
-    fn from_lamps(&self, texel: &Texel) -> Vec3 {
+    fn by_lamps(&self, texel: &Texel) -> Vec3 {
         let place = texel.points[0].position;
         let lamps = (0u32..).zip(&self.lamps);
         let light = lamps.map(|(k, lamp)| {
@@ -211,12 +211,12 @@ impl<'a> Baker<'a> {
             let most =
                 lamp.emission.max_element() * lamp.area / (core::f32::consts::PI * away * away);
             let samples = (self.samples as f32 * 2.0 * (most / 2.0).sqrt()) as u32;
-            self.from_lamp(texel, lamp, samples.clamp(self.samples / 8 + 1, 2 * self.samples), k)
+            self.by_lamp(texel, lamp, samples.clamp(self.samples / 8 + 1, 2 * self.samples), k)
         });
         light.sum::<Vec3>() / core::f32::consts::PI
     }
 
-    fn from_lamp(&self, texel: &Texel, lamp: &Lamp, samples: u32, number: u32) -> Vec3 {
+    fn by_lamp(&self, texel: &Texel, lamp: &Lamp, samples: u32, number: u32) -> Vec3 {
         let shift = shift(texel.number, 100 + number);
         let mut sum = 0.0;
         for n in 0..samples {

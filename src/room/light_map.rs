@@ -36,7 +36,8 @@ pub const LIGHT_MOST: f32 = 2.0;
 pub enum LightMapError {
     /// The picture has another size than the room's map.
     #[error(
-        "its picture has {width} x {height} texels and the room {expected_width} x {expected_height}; run `hapticbillard bake`"
+        "its picture has {width} x {height} texels, not {expected_width} x {expected_height}; \
+         run `hapticbillard bake`"
     )]
     Size {
         /// Its width.
@@ -49,9 +50,7 @@ pub enum LightMapError {
         expected_height: u32,
     },
     /// It was baked for another room.
-    #[error(
-        "it was baked for a room {found}, and this one is {expected}; run `hapticbillard bake`"
-    )]
+    #[error("it was baked for a room {found}, not for {expected}; run `hapticbillard bake`")]
     Room {
         /// The digest that it was baked for.
         found: String,
