@@ -16,7 +16,9 @@ const NOTHING: &str = include_str!("shaders/nothing.frag");
 /// The text that all shaders of a picture begin with; ROOM may be set before it.
 pub fn light() -> String {
     format!(
-        "#ifndef ROOM\n#define ROOM 0\n#endif\nconst float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\nconst float LAMP_APART = {LAMP_APART_M:?};\n\
+        "#ifndef ROOM\n#define ROOM 0\n#endif\n\
+         const float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\n\
+         const float LAMP_APART = {LAMP_APART_M:?};\n\
          {LIGHT}"
     )
 }

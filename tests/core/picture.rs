@@ -103,7 +103,7 @@ fn the_menu_sets_a_preset_and_then_one_thing_of_it() {
     // From medium to high, by keys; then the shadows by a click on their right arrow.
     menu.hear(MenuInput::More);
     assert_eq!(Preset::of(&menu.settings.picture), Some(Preset::High));
-    menu.hear(MenuInput::Press { line: 1, share: Some(0.9) });
+    menu.hear(MenuInput::Press { line: 2, share: Some(0.9) });
     assert_eq!(menu.settings.picture.shadows, Shadows::Maps);
     assert_eq!(Preset::of(&menu.settings.picture), None);
     // Everything there is stands on a page.

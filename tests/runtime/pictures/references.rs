@@ -37,6 +37,7 @@ fn shots() -> Vec<(&'static str, f64, DVec3, DVec3, PictureSettings)> {
         ("break_off", 0.5, near, spread, shadows(Shadows::Off)),
         ("break_maps", 0.5, near, spread, shadows(Shadows::Maps)),
         ("break_volumes", 0.5, near, spread, shadows(Shadows::Volumes)),
+        ("room", 0.5, DVec3::new(-2.6, -2.2, 0.9), DVec3::new(1.0, 0.6, 0.2), usual),
         ("very_low", 0.5, near, spread, preset(Preset::VeryLow)),
         ("marks", 0.5, near, spread, PictureSettings { marks: true, ..usual }),
         ("vectors", 0.5, near, spread, PictureSettings { vectors: true, ..usual }),
