@@ -166,8 +166,8 @@ fn a_wrong_scene_is_one_line_on_stderr() {
     refused(
         &["scene", "banana"],
         "there is no scene 'banana': write a file or one of eight_ball, eight_ball_headless, \
-         wpa_eight_ball, nine_ball, straight, training, tutorial, free_play, snooker, three_cushion, \
-         free_carom, break_shot, one_ball, minigolf, haptic_touch",
+         wpa_eight_ball, nine_ball, straight, training, tutorial, free_play, snooker, \
+         three_cushion, free_carom, break_shot, one_ball, minigolf, haptic_touch",
     );
 }
 
