@@ -133,7 +133,9 @@ impl Tutor {
                 let turned = (view.aim.azimuth_rad - began.aim.azimuth_rad).abs();
                 aims && TURNED_RAD < turned && view.object_heading.length() > 0.5
             }
-            Lesson::Tip => aims && OFF_MIDDLE < view.aim.side_offset.hypot(view.aim.height_offset),
+            Lesson::Tip => {
+                aims && OFF_MIDDLE < libm::hypot(view.aim.side_offset, view.aim.height_offset)
+            }
             Lesson::View => view.look.view != View::Usual,
             Lesson::Strike | Lesson::Wait | Lesson::Spin => false,
             Lesson::Replay | Lesson::Undo | Lesson::End => false,

@@ -23,7 +23,7 @@ fn shot() -> &'static (Reel, Vec<Snapshot>) {
         let (mut reel, mut states, mut known) = (Reel::default(), Vec::new(), 0);
         let mut tick = |desk: &Desk, n: u64| {
             let state = desk.table().clone();
-            if n % 4 == 0 {
+            if n.is_multiple_of(4) {
                 reel.take(&Arc::new(state.clone()));
             }
             states.push(state);
