@@ -14,6 +14,8 @@ struct Seen {
     most_threads: usize,
     /// Peak of its resident memory [kB].
     peak_kb: u64,
+    /// Most of what it had of its own: without the program and the libraries [kB].
+    own_kb: u64,
 }
 
 /// Runs the program and watches it until it ends.
@@ -37,9 +39,12 @@ fn watch(arguments: &[&str]) -> Seen {
         seen.most_threads = seen.most_threads.max(names.len());
         seen.threads.extend(names);
         let status = fs::read_to_string(format!("{process}/status")).unwrap_or_default();
-        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let peak = peak.and_then(|text| text.split_whitespace().next()?.parse().ok());
-        seen.peak_kb = seen.peak_kb.max(peak.unwrap_or(0));
+        let kb = |name: &str| {
+            let line = status.lines().find_map(|line| line.strip_prefix(name));
+            line.and_then(|text| text.split_whitespace().next()?.parse().ok()).unwrap_or(0)
+        };
+        seen.peak_kb = seen.peak_kb.max(kb("VmHWM:"));
+        seen.own_kb = seen.own_kb.max(kb("RssAnon:"));
         // The peak only grows: the last look before the end is enough.
         std::thread::sleep(Duration::from_millis(2));
     };
@@ -59,8 +64,10 @@ fn a_headless_game_starts_one_worker_and_stays_small() {
     for absent in ["window", "render", "sound", "alsa", "servo", "recorder", "physics"] {
         assert!(!seen.threads.iter().any(|name| name.contains(absent)), "{seen:?}");
     }
-    // A third of it is the program itself and the system's libraries.
-    assert!(seen.peak_kb < 30_000, "{seen:?}");
+    // What a game takes; the rest is the program itself and the system's libraries, of which a build
+    // without optimisation maps 18 MB. (As released all of it is 24 MB: see the report.)
+    assert!(seen.own_kb < 16_000, "{seen:?}");
+    assert!(seen.peak_kb < 36_000, "{seen:?}");
 }
 
 #[cfg(target_os = "linux")]
