@@ -243,7 +243,8 @@ impl Hands {
         let id = self.until("a window", find);
         let (width, height) = SIZE;
         self.event(&format!("windowsize --sync {id} {width} {height} windowmove {id} 0 0"));
-        self.event(&format!("windowfocus {id} mousemove {} {}", width / 2, height / 2));
+        // Beside the menus: a pointer over a line chooses that.
+        self.event(&format!("windowfocus {id} mousemove {} {}", width - 20, height - 20));
     }
 }
 
