@@ -104,7 +104,7 @@ pub fn run(args: &BakeArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let text = read_if_there(&path, LIST_BYTES_MAX)?.unwrap_or_default();
     let mut list = BakedFor::list(&text).map_err(|error| {
         let fix = "move it away, or bake into another folder";
-        Error::input(&path.display().to_string(), error.message(), fix)
+        Error::input(path.display().to_string(), error.message(), fix)
     })?;
     let bar = progress(rooms.len() as u64 * Pass::all().count() as u64 * 100, "light");
     for (name, room) in &rooms {
