@@ -77,8 +77,8 @@ vec3 surroundings(vec3 at, vec3 way, float soft) {
         float glass = 1.0 - smoothstep(0.185 - soft, 0.195 + soft, away);
         return mix(room, LAMP_COLOUR * mix(1.2, 5.0, glass), shade);
     }
-    // What lies below the cloth does not see it.
-    if (way.z >= 0.0 || at.z < -0.01) return room;
+    // Only what is on the table sees the cloth: from afar rails and balls would be before it.
+    if (way.z >= 0.0 || at.z < -0.01 || 0.25 < at.z) return room;
     vec2 hit = at.xy - way.xy * (at.z / min(way.z, -0.02));
     float cloth = (1.0 - smoothstep(0.0, 0.06, abs(hit.x) - bed.x))
         * (1.0 - smoothstep(0.0, 0.06, abs(hit.y) - bed.y));
