@@ -64,8 +64,8 @@ fn a_headless_game_starts_one_worker_and_stays_small() {
     for absent in ["window", "render", "sound", "alsa", "servo", "recorder", "physics"] {
         assert!(!seen.threads.iter().any(|name| name.contains(absent)), "{seen:?}");
     }
-    // What a game takes; the rest is the program itself and the system's libraries, of which a build
-    // without optimisation maps 18 MB. (As released all of it is 24 MB: see the report.)
+    // What a game takes; the rest is the program itself and the system's libraries, of which a
+    // development build maps 18 MB. (As released all of it is 24 MB: see the report.)
     assert!(seen.own_kb < 16_000, "{seen:?}");
     assert!(seen.peak_kb < 36_000, "{seen:?}");
 }
