@@ -45,7 +45,7 @@ builds:
 	  report --left-out --builds tests/report/builds.json --out tests/report
 
 # The light of the rooms, baked anew into assets/light: some minutes.
-light:
+light: setup
 	$(CARGO) run --release --locked --package hapticbillard-actors --bin hapticbillard -- \
 	  bake --out assets/light
 

@@ -74,6 +74,7 @@ use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use std::sync::Arc;
 
 /// Why there is no picture, and what to do about it; one line.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -85,7 +86,7 @@ pub struct NoPicture(pub String);
 /// # Errors
 /// [`NoPicture`] if this machine has no OpenGL.
 pub fn png(
-    table: &Table,
+    table: &Arc<Table>,
     list: &DrawList,
     hud: &Hud,
     settings: &PictureSettings,

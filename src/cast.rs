@@ -105,11 +105,14 @@ impl Cast {
                 .with_ball_radius(radius_m)
                 .with_tip_radius(tip_radius_m)
         });
-        let human = match (human, surroundings.foresight()?) {
-            (Some(human), Some(foresight)) => Some(human.with_foresight(foresight)),
+        let tried_on = surroundings.tried_on()?;
+        let human = match (human, &tried_on) {
+            (Some(human), Some(simulation)) => {
+                Some(human.with_foresight(surroundings.foresight(simulation.clone())))
+            }
             (human, _) => human,
         };
-        let adviser = surroundings.adviser()?;
+        let adviser = tried_on.and_then(|simulation| surroundings.adviser(simulation));
         let human = human.map(|human| if is_practice { human.for_practice() } else { human });
         let names = scene.players.iter().map(|section| section.name.clone()).collect();
         Ok(Cast { table, simulation, referee, players, human, adviser, names })

@@ -27,6 +27,10 @@ pub mod picture;
 
 pub mod table;
 
+pub mod noise;
+
+pub mod quantile;
+
 pub mod rack;
 
 pub mod room;

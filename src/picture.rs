@@ -14,7 +14,7 @@ mod preset;
 pub use preset::Preset;
 
 mod detail;
-pub use detail::{BallDetail, sphere_level};
+pub use detail::BallDetail;
 
 mod bench;
-pub use bench::{BENCH_SIZE, BenchRow, BenchTable, FrameTimes, bench_markdown, bench_rows};
+pub use bench::{BenchRow, BenchTable, FrameTimes, bench_markdown, bench_rows};

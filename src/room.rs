@@ -41,16 +41,15 @@ pub use builder::{Group, Vertex};
 pub use chart::Chart;
 pub use finish::Finish;
 pub use grain::{Grain, TILE_SIDE};
-pub use lamp::{LAMP_HEIGHT_M, LAMP_PITCH_M, SHADE_RADIUS_M, lamp_opacity, shades};
+pub use lamp::{LAMP_HEIGHT_M, LAMP_PITCH_M, lamp_opacity};
 pub use light_map::{BakedFor, LIGHT_MOST, LightMap, LightMapError};
 pub use obstacles::Obstacle;
-pub use table_light::FromAbove;
 
 use crate::hash::{Digest, StateHash};
 use crate::table::Table;
 use builder::Builder;
 use glam::{DVec2, DVec3};
-use table_light::TableLight;
+use table_light::{FromAbove, TableLight};
 
 /// Where the walls are [m]: behind the head of the table, behind its foot, and beside it.
 pub const WEST_M: f64 = -4.4;
@@ -141,25 +140,20 @@ impl Room {
         let parameters = table.parameters.as_ref()?;
         let floor_m = -parameters.bed_height_m;
         let mut b = Builder::default();
-        let mut obstacles = Vec::new();
         b.begin(Group::Standing);
-        bar::build(&mut b, floor_m, &mut obstacles);
-        furniture::build(&mut b, floor_m, &mut obstacles);
+        bar::build(&mut b, floor_m);
+        furniture::build(&mut b, floor_m);
         lamp::build(&mut b, CROWN_M + floor_m);
-        let table = table_light::build(&mut b, parameters, &table.display());
+        let table_light = table_light::build(&mut b, parameters, &table.display());
         // Walls last: they are drawn in this order, and everything else hides them.
         shell::build(&mut b, floor_m);
         let mirror = b.chart(MIRROR_SIDE, MIRROR_SIDE);
-        for obstacle in &mut obstacles {
-            obstacle.least.z += floor_m;
-            obstacle.most.z += floor_m;
-        }
         Some(Room {
             surfaces: Surfaces::of(b),
             floor_m,
             outer: DVec2::new(parameters.outer_x_m(), parameters.outer_y_m()),
-            obstacles,
-            table,
+            obstacles: obstacles(table),
+            table: table_light,
             mirror,
         })
     }
@@ -239,6 +233,15 @@ impl Room {
         }
         hash.finish()
     }
+}
+
+/// Boxes round the furniture in the room of a table; none where there is no room. It takes no room
+/// to know them.
+pub fn obstacles(table: &Table) -> Vec<Obstacle> {
+    let Some(parameters) = &table.parameters else { return Vec::new() };
+    let floor = DVec3::new(0.0, 0.0, -parameters.bed_height_m);
+    let standing = bar::obstacles().into_iter().chain(furniture::obstacles());
+    standing.map(|one| Obstacle { least: one.least + floor, most: one.most + floor }).collect()
 }
 
 /// The middle of a chart's first texel [texels].

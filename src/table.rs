@@ -217,6 +217,11 @@ pub struct Bed {
 }
 
 impl Bed {
+    /// Half its length and width [m].
+    pub fn half(&self) -> DVec2 {
+        0.5 * DVec2::new(self.length_m, self.width_m)
+    }
+
     /// x of the head string [m].
     pub fn head_string_x(&self) -> f64 {
         -0.25 * self.length_m

@@ -211,6 +211,14 @@ fn stage(args: &RenderArgs) -> Result<(Stage, Option<Recording>), Error> {
     Ok((stage.with(Overrides { seed: args.seed, players, ..Overrides::default() }), None))
 }
 
+/// The radii of a stage's balls, and how they look.
+#[cfg(feature = "renderer")]
+pub fn radii(stage: &Stage) -> Result<Radii, Error> {
+    let balls = stage.scene.build_balls(&stage.table)?;
+    Ok(Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
+        .with_set(stage.scene.equipment().into()))
+}
+
 /// The eye.
 #[cfg(feature = "renderer")]
 fn eye(args: &RenderArgs, stage: &Stage) -> CameraPose {
@@ -279,9 +287,7 @@ pub fn run(args: &RenderArgs, out: &mut dyn Write) -> Result<Status, Error> {
     let mut picture = args.picture.settings()?;
     picture.vectors |= args.vectors;
     let (stage, recording) = stage(args)?;
-    let balls = stage.scene.build_balls(&stage.table)?;
-    let mut radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
-        .with_set(stage.scene.equipment().into());
+    let mut radii = radii(&stage)?;
     radii.mark(picture.marks);
     let mut view = HumanView { camera: eye(args, &stage), ..HumanView::default() };
     let (list, written, time_s) = match args.thoughts {

@@ -1,5 +1,6 @@
 //! The last values of something: noted by one thread, looked at by another, without waiting.
 
+use hapticbillard::quantile::nearest_rank;
 use hapticbillard::renderer::Spread;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -38,12 +39,8 @@ impl Recent {
         let values = self.values_ns[..filled].iter();
         let mut values: Vec<u64> = values.map(|value| value.load(Ordering::Relaxed)).collect();
         values.sort_unstable();
-        let last = values.len().checked_sub(1)?;
-        let at = |share: f64| {
-            let place = (share * values.len() as f64).ceil() as usize;
-            values[place.saturating_sub(1).min(last)] as f64 * 1e-9
-        };
-        Some(Spread { median_s: at(0.5), p99_s: at(0.99), most_s: at(1.0) })
+        let at = |share: f64| Some(nearest_rank(&values, share)? as f64 * 1e-9);
+        Some(Spread { median_s: at(0.5)?, p99_s: at(0.99)?, most_s: at(1.0)? })
     }
 }
 

@@ -52,6 +52,13 @@ struct Group {
 }
 
 impl Group {
+    fn clear(&mut self) {
+        self.places.clear();
+        self.turns.clear();
+        self.paints.clear();
+        self.traits.clear();
+    }
+
     fn push(&mut self, ball: &BallInstance, reflection: f32, scratches: f32) {
         let [x, y, z] = ball.position;
         self.places.push(vec4(x, y, z, ball.radius_m));
@@ -113,7 +120,7 @@ pub struct Balls {
     groups: [Group; LEVELS.len()],
     /// All of them, for whatever looks at all.
     all: Group,
-    buffers: Buffers,
+    buffers: [Buffers; LEVELS.len()],
     places: InstanceBuffer<Vec4>,
     squares: InstanceBuffer<Vec3>,
 }
@@ -141,23 +148,22 @@ impl Balls {
             contacts: [contact(0)?, contact(1)?],
             groups: Default::default(),
             all: Group::default(),
-            buffers: Buffers::new(context),
+            buffers: LEVELS.map(|_| Buffers::new(context)),
             places: InstanceBuffer::new(context),
             squares: InstanceBuffer::new(context),
         })
     }
 
-    /// Takes the balls of a picture, and gets ready what it takes to draw them.
+    /// Takes the balls of a picture for an eye [m], and gets ready what it takes to draw them.
     pub fn take(
         &mut self,
         list: &DrawList,
+        eye: glam::Vec3,
         settings: &PictureSettings,
         has_room: bool,
         pixels_per_rad: f32,
     ) -> Result<(), CoreError> {
-        let eye = list.camera.eye.as_vec3();
-        self.groups = Default::default();
-        self.all = Group::default();
+        self.groups.iter_mut().chain([&mut self.all]).for_each(Group::clear);
         for ball in &list.balls {
             let away = eye.distance(ball.position.into()).max(ball.radius_m);
             let detail = BallDetail::of(ball.radius_m / away * pixels_per_rad, settings);
@@ -165,7 +171,9 @@ impl Balls {
             self.groups[group].push(ball, detail.reflection, detail.scratches);
             self.all.push(ball, detail.reflection, detail.scratches);
         }
-        self.places.fill(&self.all.places);
+        for (buffers, group) in self.buffers.iter_mut().zip(&self.groups) {
+            buffers.fill(group);
+        }
         let variant = variant(settings, has_room);
         if !self.programs.contains_key(&variant) {
             self.programs.insert(variant, ball_program(&self.context, variant)?);
@@ -180,23 +188,23 @@ impl Balls {
 
     /// Draws the balls with their light.
     pub fn draw(
-        &mut self,
+        &self,
         settings: &PictureSettings,
         camera: &Camera,
         facts: &Facts,
         tell: &dyn Fn(&Program),
     ) {
         let (Some(program), Some(digits)) = (
-            self.programs.get(&variant(settings, facts.room.is_there())),
+            self.programs.get(&variant(settings, facts.room.is_some())),
             self.digits.get(&settings.texture),
         ) else {
             return;
         };
-        for (group, mesh) in self.groups.iter().zip(&self.meshes) {
-            if group.places.is_empty() {
+        for (buffers, mesh) in self.buffers.iter().zip(&self.meshes) {
+            let count = buffers.places.instance_count();
+            if count == 0 {
                 continue;
             }
-            self.buffers.fill(group);
             facts.tell(program, camera);
             tell(program);
             program.use_uniform_if_required("ivory", linear(ball_look(BallId::CUE).colour));
@@ -208,12 +216,11 @@ impl Balls {
             }
             self.tell_all(program);
             program.use_vertex_attribute("position", &mesh.corners);
-            program.use_instance_attribute("place", &self.buffers.places);
-            program.use_instance_attribute("turn", &self.buffers.turns);
-            program.use_instance_attribute("paint", &self.buffers.paints);
-            program.use_instance_attribute("traits", &self.buffers.traits);
+            program.use_instance_attribute("place", &buffers.places);
+            program.use_instance_attribute("turn", &buffers.turns);
+            program.use_instance_attribute("paint", &buffers.paints);
+            program.use_instance_attribute("traits", &buffers.traits);
             let states = RenderStates { cull: Cull::Back, ..RenderStates::default() };
-            let count = group.places.len() as u32;
             program.draw_elements_instanced(states, camera.viewport(), &mesh.triangles, count);
         }
     }
@@ -242,31 +249,22 @@ impl Balls {
 
     /// Draws where balls are, and not how they look.
     pub fn draw_depth(&self, view_projection: Mat4, viewport: Viewport) {
-        let count = self.all.places.len() as u32;
-        if count == 0 {
-            return;
-        }
         // In the dark nobody counts triangles, but a picture's outline has to be the same.
-        let mut first = 0;
-        for (group, mesh) in self.groups.iter().zip(&self.meshes) {
-            let places = &group.places;
-            first += places.len();
-            if places.is_empty() {
+        for (buffers, mesh) in self.buffers.iter().zip(&self.meshes) {
+            let count = buffers.places.instance_count();
+            if count == 0 {
                 continue;
             }
-            let buffer = InstanceBuffer::new_with_data(&self.context, places);
             self.placed.use_uniform("view_projection", view_projection);
             self.placed.use_vertex_attribute("position", &mesh.corners);
-            self.placed.use_instance_attribute("place", &buffer);
+            self.placed.use_instance_attribute("place", &buffers.places);
             let states = RenderStates {
                 write_mask: WriteMask::DEPTH,
                 cull: Cull::Back,
                 ..RenderStates::default()
             };
-            let count = places.len() as u32;
             self.placed.draw_elements_instanced(states, viewport, &mesh.triangles, count);
         }
-        debug_assert_eq!(first, self.all.places.len());
     }
 
     /// Darkens the cloth under balls and see-through balls.

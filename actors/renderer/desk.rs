@@ -56,9 +56,10 @@ pub(super) struct Desk<'a> {
     /// How pictures are drawn without a menu.
     picture: PictureSettings,
     lobby: Lobby,
-    /// The language that everything is written in, and its words of the menus.
+    /// The language of everything, its words of the menus, and those over a picture.
     spoken: Language,
     words: Words,
+    over: Words,
     /// What is seen behind the main menu, and what the graphics card holds of it; none before it
     /// is needed.
     backdrop: Option<(DrawList, Stage)>,
@@ -124,6 +125,7 @@ impl<'a> Desk<'a> {
             picture: setup.picture,
             spoken: setup.language,
             words: Words::of_menus(setup.language).with_keys(&setup.keys.0),
+            over: Words::new(setup.language).with_keys(&setup.keys.0),
             is_full: setup.menu.as_ref().is_some_and(|menu| menu.settings.full_screen),
             lobby: Lobby::new(setup.menu).with_bindings(setup.keys.0),
             shows_meters: false,
@@ -153,7 +155,7 @@ impl<'a> Desk<'a> {
         desk.speak();
         desk.lobby.resize(desk.size());
         if let Some(problem) = setup.keys.1 {
-            let said = Words::new(desk.spoken).fill("keys_bad", "problem", &problem);
+            let said = desk.over.fill("keys_bad", "problem", &problem);
             desk.said = Some((said, now + SAID_LONG));
         }
         if setup.begins {
@@ -293,7 +295,7 @@ impl<'a> Desk<'a> {
             match order {
                 Order::Tell(input) => self.tell(input),
                 Order::Do(action) => self.act(action),
-                Order::Say(key) => self.say(Words::new(self.spoken).get(key)),
+                Order::Say(key) => self.say(self.over.get(key)),
                 Order::Replay(is_shown) => {
                     self.game.iter_mut().for_each(|game| game.screen(is_shown));
                 }
@@ -461,6 +463,7 @@ impl<'a> Desk<'a> {
     fn write_anew(&mut self) {
         let (language, bindings) = (self.spoken, self.lobby.bindings());
         self.words = Words::of_menus(language).with_keys(bindings);
+        self.over = Words::new(language).with_keys(bindings);
         if let Some(game) = &mut self.game {
             game.speak(language, bindings);
         }

@@ -14,7 +14,7 @@ const PLAN_FLOOR: &str = include_str!("shaders/plan_floor.frag");
 const NOTHING: &str = include_str!("shaders/nothing.frag");
 
 /// The text that all shaders of a picture begin with; ROOM may be set before it.
-pub fn light() -> String {
+fn light() -> String {
     format!(
         "#ifndef ROOM\n#define ROOM 0\n#endif\n\
          const float LAMP_HEIGHT = {LAMP_HEIGHT_M:?};\n\
@@ -43,8 +43,8 @@ pub fn program(
 pub struct Facts<'a> {
     /// Half the bed [m].
     pub bed: Vec2,
-    /// The light of the room that is drawn.
-    pub room: &'a RoomLight,
+    /// The light of the room, if one is drawn.
+    pub room: Option<&'a RoomLight>,
 }
 
 impl Facts<'_> {
@@ -53,7 +53,9 @@ impl Facts<'_> {
         program.use_uniform_if_required("eye", viewer.position());
         program.use_uniform_if_required("bed", self.bed);
         program.use_uniform_if_required("view_projection", viewer.projection() * viewer.view());
-        self.room.tell(program);
+        if let Some(room) = self.room {
+            room.tell(program);
+        }
     }
 }
 
@@ -152,17 +154,15 @@ pub struct Told<'a> {
 
 impl Material for Told<'_> {
     fn fragment_shader_source(&self, _: &[&dyn Light]) -> String {
-        self.shader.text(self.facts.room.is_there())
+        self.shader.text(self.facts.room.is_some())
     }
 
     fn id(&self) -> EffectMaterialId {
-        EffectMaterialId(self.shader.number() + if self.facts.room.is_there() { 0x800 } else { 0 })
+        EffectMaterialId(self.shader.number() + if self.facts.room.is_some() { 0x800 } else { 0 })
     }
 
     fn use_uniforms(&self, program: &Program, viewer: &dyn Viewer, _: &[&dyn Light]) {
-        program.use_uniform_if_required("eye", viewer.position());
-        self.facts.room.tell(program);
-        program.use_uniform_if_required("bed", self.facts.bed);
+        self.facts.tell(program, viewer);
         (self.tell)(program);
     }
 

@@ -94,7 +94,7 @@ impl Studio {
     ///
     /// # Errors
     /// [`NoPicture`] if this machine has no OpenGL.
-    pub fn new(table: &Table) -> Result<Self, NoPicture> {
+    pub fn new(table: &Arc<Table>) -> Result<Self, NoPicture> {
         let context = context()?;
         let wrong = |error: CoreError| failed("OpenGL", error);
         Ok(Studio {

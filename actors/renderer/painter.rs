@@ -122,7 +122,8 @@ impl Painter {
         list.lines.push(Line { from: near, to: far, half_width_m: 0.01, colour });
         list.ghosts.push(GhostBall { position: near, radius_m: 0.03, colour });
         let sight = Sight::new(&self.context, (64, 40), settings.smooth.is_on(self.is_software));
-        let camera = stage.prepare(&list, settings, Viewport::new_at_origo(64, 40))?;
+        let camera =
+            stage.prepare(&list, &list.camera, settings, Viewport::new_at_origo(64, 40))?;
         sight.draw(|| stage.draw(&list, settings, &camera))
     }
 
@@ -143,7 +144,8 @@ impl Painter {
         let both = eyes(&list.camera, settings.stereo);
         if both.is_none() && !is_smooth && drawn == size {
             self.sights.clear();
-            return Ok(Ready::Direct(Box::new(stage.prepare(list, settings, viewport)?)));
+            let camera = stage.prepare(list, &list.camera, settings, viewport)?;
+            return Ok(Ready::Direct(Box::new(camera)));
         }
         let poses = both.map_or_else(|| vec![list.camera], Vec::from);
         self.sights.retain(|sight| sight.fits(drawn, is_smooth));
@@ -152,9 +154,8 @@ impl Painter {
             self.sights.push(Sight::new(&self.context, drawn, is_smooth));
         }
         for (pose, sight) in poses.iter().zip(&self.sights) {
-            let list = DrawList { camera: *pose, ..list.clone() };
-            let camera = stage.prepare(&list, settings, viewport)?;
-            sight.draw(|| stage.draw(&list, settings, &camera))?;
+            let camera = stage.prepare(list, pose, settings, viewport)?;
+            sight.draw(|| stage.draw(list, settings, &camera))?;
         }
         Ok(Ready::Drawn(poses.len()))
     }

@@ -1,11 +1,12 @@
 //! The room on the graphics card: four draw calls: the lamp, what mirrors, what does not, the
 //! vault.
 
-use super::materials::light;
+use super::materials::{Facts, program};
 use super::room_light::{RoomLight, shipped_light};
 use glam::DVec3;
 use hapticbillard::room::{Grain, Group, LightMap, Room, TILE_SIDE, Vertex, lamp_opacity};
 use hapticbillard::table::Table;
+use std::sync::Arc;
 use three_d::*;
 
 const VERTEX: &str = include_str!("shaders/room.vert");
@@ -19,8 +20,53 @@ const GLOSS_LEAST: f32 = 0.35;
 /// How bright what shines is on the screen at most: brighter colours would all be white.
 const GLARE: f32 = 4.0;
 
+/// The room round a table, made when it is first wanted.
+pub struct RoomPlace {
+    table: Arc<Table>,
+    /// Nothing yet; then the room and its light, if there can be one.
+    made: Option<Option<(RoomStage, RoomLight)>>,
+    /// It is seen in this picture.
+    is_shown: bool,
+}
+
+impl RoomPlace {
+    /// That of a table.
+    pub fn round(table: Arc<Table>) -> Self {
+        RoomPlace { table, made: None, is_shown: false }
+    }
+
+    /// Whether this part of a table is drawn with the room.
+    pub fn draws(part: &str) -> bool {
+        matches!(part, "floor" | "apron" | "legs")
+    }
+
+    /// The next picture shows it, if that is wanted and there is one; whether it does.
+    pub fn show(&mut self, is_wanted: bool, context: &Context) -> bool {
+        let table = &self.table;
+        self.is_shown = is_wanted
+            && self.made.get_or_insert_with(|| RoomStage::around(context, table)).is_some();
+        self.is_shown
+    }
+
+    /// Its light, where it is seen.
+    pub fn light(&self) -> Option<&RoomLight> {
+        self.seen().map(|(_, light)| light)
+    }
+
+    /// Draws it, where it is seen; `bed` is half the bed [m].
+    pub fn draw(&self, bed: Vec2, camera: &Camera) {
+        if let Some((stage, light)) = self.seen() {
+            stage.draw(&Facts { bed, room: Some(light) }, camera);
+        }
+    }
+
+    fn seen(&self) -> Option<&(RoomStage, RoomLight)> {
+        self.made.as_ref()?.as_ref().filter(|_| self.is_shown)
+    }
+}
+
 /// Meshes and textures of a room.
-pub struct RoomStage {
+struct RoomStage {
     matt: Program,
     glossy: Program,
     fading: Program,
@@ -35,13 +81,12 @@ pub struct RoomStage {
     lamp: ElementBuffer<u32>,
     tiles: Texture2DArray,
     crown_m: f64,
-    obstacles: Vec<(DVec3, DVec3)>,
     outer: glam::DVec2,
 }
 
 impl RoomStage {
     /// The room of a table and its light, if it is a table that has one.
-    pub fn around(context: &Context, table: &Table) -> Option<(Self, RoomLight)> {
+    fn around(context: &Context, table: &Table) -> Option<(Self, RoomLight)> {
         let room = Room::around(table)?;
         let map = shipped_light(&table.name, &room).unwrap_or_else(|reason| {
             tracing::warn!("no baked light for {}: {reason}; it is lit plainly", table.name);
@@ -56,19 +101,10 @@ impl RoomStage {
         }
     }
 
-    /// Whether this part of a table is drawn with the room.
-    pub fn draws(part: &str) -> bool {
-        matches!(part, "floor" | "apron" | "legs")
-    }
-
     fn new(context: &Context, room: &Room) -> Result<Self, CoreError> {
-        let program = |gloss: u8, fading: u8| {
-            let gloss = format!("#define GLOSS {gloss}\n#define FADING {fading}\n");
-            Program::from_source(
-                context,
-                VERTEX,
-                &format!("#define ROOM 1\n{gloss}{}{FRAGMENT}", light()),
-            )
+        let program = |gloss, fading| {
+            let set = [("ROOM", 1), ("GLOSS", gloss), ("FADING", fading)];
+            program(context, VERTEX, &set, &[FRAGMENT])
         };
         let surfaces = &room.surfaces;
         let mirrors = |corner: u32| {
@@ -135,42 +171,36 @@ impl RoomStage {
             lamp,
             tiles: tiles(context),
             crown_m: room.crown_m(),
-            obstacles: room.obstacles.iter().map(|one| (one.least, one.most)).collect(),
             outer: room.outer,
         })
     }
 
-    /// What stands in it: lower and upper corners [m].
-    pub fn obstacles(&self) -> &[(DVec3, DVec3)] {
-        &self.obstacles
-    }
-
-    /// Draws it; `bed` is half the bed [m].
-    pub fn draw(&self, light: &RoomLight, bed: Vec2, camera: &Camera) {
+    fn draw(&self, facts: &Facts, camera: &Camera) {
         let eye = camera.position();
         let own = DVec3::new(f64::from(eye.x), f64::from(eye.y), f64::from(eye.z));
-        let scene = Scene { light, bed, camera };
         let opacity = lamp_opacity(own, self.outer);
         // What is near hides what is far, and the walls are farthest.
         if WHOLE < opacity {
-            self.part(&self.glossy, &self.lamp, &scene);
+            self.part(&self.glossy, &self.lamp, facts, camera);
         } else if UNSEEN < opacity {
             self.fading.use_uniform("seen", opacity as f32);
-            self.part(&self.fading, &self.lamp, &scene);
+            self.part(&self.fading, &self.lamp, facts, camera);
         }
-        self.part(&self.glossy, &self.mirroring, &scene);
-        self.part(&self.matt, &self.standing, &scene);
+        self.part(&self.glossy, &self.mirroring, facts, camera);
+        self.part(&self.matt, &self.standing, facts, camera);
         if own.z < self.crown_m {
-            self.part(&self.matt, &self.ceiling, &scene);
+            self.part(&self.matt, &self.ceiling, facts, camera);
         }
     }
 
-    fn part(&self, program: &Program, indices: &ElementBuffer<u32>, scene: &Scene) {
-        let camera = scene.camera;
-        program.use_uniform("view_projection", camera.projection() * camera.view());
-        program.use_uniform_if_required("eye", camera.position());
-        program.use_uniform_if_required("bed", scene.bed);
-        scene.light.tell(program);
+    fn part(
+        &self,
+        program: &Program,
+        indices: &ElementBuffer<u32>,
+        facts: &Facts,
+        camera: &Camera,
+    ) {
+        facts.tell(program, camera);
         program.use_texture_array("grains", &self.tiles);
         program.use_vertex_attribute("position", &self.positions);
         program.use_vertex_attribute("paint", &self.paints);
@@ -183,13 +213,6 @@ impl RoomStage {
         let states = RenderStates { cull: Cull::Back, ..RenderStates::default() };
         program.draw_elements(states, camera.viewport(), indices);
     }
-}
-
-/// What a draw call is told.
-struct Scene<'a> {
-    light: &'a RoomLight,
-    bed: Vec2,
-    camera: &'a Camera,
 }
 
 /// The tiles of all grains.

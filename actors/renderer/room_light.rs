@@ -88,19 +88,6 @@ impl RoomLight {
         }
     }
 
-    /// That of no room at all.
-    pub fn none(context: &Context) -> Self {
-        let zero = Vec4::new(0.0, 0.0, 0.0, 0.0);
-        let dark = LightMap { size: [1, 1], texels: vec![[0; 3]] };
-        let side = vec3(0.0, 0.0, 0.0);
-        RoomLight { map: texture(context, &dark), mirror: zero, bed: zero, rails: zero, side }
-    }
-
-    /// Whether there is a room.
-    pub fn is_there(&self) -> bool {
-        self.mirror.z != 0.0
-    }
-
     /// Tells a shader what it wants to know of it.
     pub fn tell(&self, program: &Program) {
         if program.requires_uniform("room_light") {

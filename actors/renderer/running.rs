@@ -24,6 +24,7 @@ use hapticbillard::renderer::{
     DrawList, HelpOf, Hud, Mount, Playhead, Radii, Scoreboard, ThoughtsPanel, Words, draw_thoughts,
     draw_vectors,
 };
+use hapticbillard::room;
 use hapticbillard::rules::{Language, Texts};
 use hapticbillard::table::Table;
 use hapticbillard::tick::{Delivered, Finished};
@@ -164,7 +165,8 @@ impl Running {
         let thread = GameThread::begin(|| play(ports), ended, raw_in.clone())?;
         let stage = Stage::new(context, &setup.table)
             .map_err(|error| RunError::Start(format!("OpenGL: {error}")))?;
-        let room = Room::round(setup.table.bed.as_ref()).with(stage.obstacles().to_vec());
+        let stands = room::obstacles(&setup.table).into_iter().map(|one| (one.least, one.most));
+        let room = Room::round(setup.table.bed.as_ref()).with(stands);
         Ok(Running {
             stage,
             outbox: Outbox::new(raw_in),

@@ -5,8 +5,7 @@
 use super::balls::{Balls, shadow_number};
 use super::materials::{Facts, Finish, Shader, Told, program};
 use super::meshes::{ground, laid, marks, part_mesh, shape_mesh, square};
-use super::room::RoomStage;
-use super::room_light::RoomLight;
+use super::room::RoomPlace;
 use super::shadows::{DownEye, Maps, Volumes};
 use super::textures;
 use hapticbillard::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose, TIP_RADIUS_M};
@@ -18,6 +17,7 @@ use hapticbillard::renderer::{
     stylus_shape,
 };
 use hapticbillard::table::{Material as Made, Table};
+use std::sync::Arc;
 use three_d::*;
 
 /// How often the triangles of see-through balls are divided.
@@ -75,12 +75,7 @@ pub struct Stage {
     plan: Option<(bool, Texture2D)>,
     maps: Option<Maps>,
     volumes: Option<Volumes>,
-    room: Option<RoomStage>,
-    light: RoomLight,
-    /// The light of no room.
-    no_light: RoomLight,
-    /// The room is seen in this picture.
-    shows_room: bool,
+    room: RoomPlace,
 }
 
 impl Stage {
@@ -88,11 +83,7 @@ impl Stage {
     ///
     /// # Errors
     /// Its compiler does not take a shader.
-    pub fn new(context: &Context, table: &Table) -> Result<Self, CoreError> {
-        let (room, light) = match RoomStage::around(context, table) {
-            Some((room, light)) => (Some(room), light),
-            None => (None, RoomLight::none(context)),
-        };
+    pub fn new(context: &Context, table: &Arc<Table>) -> Result<Self, CoreError> {
         let mut parts: Vec<Part> = table
             .display()
             .iter()
@@ -101,7 +92,7 @@ impl Stage {
             .map(|part| Part {
                 kind: kind(part.material),
                 mesh: Mesh::new(context, &part_mesh(part)),
-                is_of_room: RoomStage::draws(part.name),
+                is_of_room: RoomPlace::draws(part.name),
             })
             .collect();
         if table.bed.is_none() {
@@ -150,55 +141,52 @@ impl Stage {
             plan: None,
             maps: None,
             volumes: None,
-            room,
-            light,
-            no_light: RoomLight::none(context),
-            shows_room: false,
+            room: RoomPlace::round(table.clone()),
             context: context.clone(),
         })
     }
 
-    /// Gets ready what a picture of this size needs, in pictures of its own: no target may be
-    /// written to meanwhile.
+    /// Gets ready what a picture of this size needs, seen by an eye, in pictures of its own: no
+    /// target may be written to meanwhile.
     ///
     /// # Errors
     /// The graphics card's compiler does not take a shader, or it gives no room.
     pub fn prepare(
         &mut self,
         list: &DrawList,
+        eye: &CameraPose,
         settings: &PictureSettings,
         viewport: Viewport,
     ) -> Result<Camera, CoreError> {
-        let camera = camera(&list.camera, viewport);
+        let camera = camera(eye, viewport);
         let pixels_per_rad =
-            viewport.height as f32 / (2.0 * (0.5 * list.camera.field_of_view_rad as f32).tan());
-        self.shows_room = settings.room && self.room.is_some();
-        self.balls.take(list, settings, self.shows_room, pixels_per_rad)?;
+            viewport.height as f32 / (2.0 * (0.5 * eye.field_of_view_rad as f32).tan());
+        let has_room = self.room.show(settings.room, &self.context);
+        self.balls.take(list, eye.eye.as_vec3(), settings, has_room, pixels_per_rad)?;
         if let Some(cue) = &list.cue {
             let (tip, along) = (cue.tip.as_vec3().to_array(), cue.direction.as_vec3().to_array());
             self.cue.set_transformation(laid(tip.into(), along.into(), 1.0, 1.0));
         }
-        let is_old = self.plan.as_ref().is_none_or(|(of, _)| *of != self.shows_room);
+        let is_old = self.plan.as_ref().is_none_or(|(of, _)| *of != has_room);
         if self.is_plain(settings) && is_old {
-            self.plan = Some((self.shows_room, self.seen_from_above()?));
+            self.plan = Some((has_room, self.seen_from_above()?));
         }
         let cue = list.cue.as_ref().map(|_| &self.cue);
+        // Nobody sees how bright the dark is.
+        let facts = Facts { bed: self.bed, room: None };
         match settings.shadows {
             Shadows::Maps => {
                 let frame = if self.bed.x > 0.0 { self.outer } else { vec2(2.0, 1.0) };
                 let maps = self.maps.get_or_insert_with(|| Maps::new(&self.context, frame));
-                maps.draw(&self.balls, cue, Facts { bed: self.bed, room: &self.no_light })?;
+                maps.draw(&self.balls, cue, facts)?;
             }
             Shadows::Volumes => {
                 let volumes = match &mut self.volumes {
                     Some(volumes) => volumes,
                     none => none.insert(Volumes::new(&self.context)?),
                 };
-                let facts = Facts { bed: self.bed, room: &self.no_light };
                 let told = Told { shader: Shader::Depth, tell: &|_| {}, facts };
-                let shows_room = self.shows_room;
-                let parts = self.parts.iter().filter(|part| !(shows_room && part.is_of_room));
-                let meshes = parts.map(|part| &part.mesh).chain(cue);
+                let meshes = seen(&self.parts, has_room).map(|part| &part.mesh).chain(cue);
                 let lowest = if self.bed.x > 0.0 { UNDER_CLOTH_M } else { -4.0 };
                 volumes.draw(&self.balls, list.cue.as_ref(), lowest, &camera, || {
                     meshes.for_each(|mesh| mesh.render_with_material(&told, &camera, &[]));
@@ -222,9 +210,7 @@ impl Stage {
             _ => {}
         };
         // Balls hide much of the cloth, so they come first.
-        let room = if self.shows_room { &self.light } else { &self.no_light };
-        let facts = Facts { bed: self.bed, room };
-        self.balls.draw(settings, camera, &facts, &tell_shadows);
+        self.balls.draw(settings, camera, &self.facts(), &tell_shadows);
         if list.cue.is_some() {
             self.render(&self.cue, Shader::Painted, &|_| {}, camera);
         }
@@ -258,12 +244,9 @@ impl Stage {
         } else {
             self.parts(finish, camera, &tell_shadows);
         }
-        if let Some(room) = self.room.as_ref().filter(|_| self.shows_room) {
-            room.draw(&self.light, self.bed, camera);
-        }
+        self.room.draw(self.bed, camera);
         if shadows == Shadows::Soft {
-            let room = if self.shows_room { &self.light } else { &self.no_light };
-            let facts = Facts { bed: self.bed, room };
+            let facts = Facts { bed: self.bed, room: self.room.light() };
             self.balls.draw_contacts(list, camera, &facts, &self.pockets);
             if let Some(cue) = &list.cue {
                 self.shade_cue(cue, camera);
@@ -280,19 +263,13 @@ impl Stage {
         }
     }
 
-    /// What stands in the room, if there is one: lower and upper corners [m].
-    pub fn obstacles(&self) -> &[(glam::DVec3, glam::DVec3)] {
-        self.room.as_ref().map_or(&[], RoomStage::obstacles)
-    }
-
     /// What all shaders know.
     fn facts(&self) -> Facts<'_> {
-        Facts { bed: self.bed, room: if self.shows_room { &self.light } else { &self.no_light } }
+        Facts { bed: self.bed, room: self.room.light() }
     }
 
-    /// The parts that are drawn now: a room brings some of its own.
     fn seen_parts(&self) -> impl Iterator<Item = &Part> {
-        self.parts.iter().filter(|part| !(self.shows_room && part.is_of_room))
+        seen(&self.parts, self.room.light().is_some())
     }
 
     /// Draws the table, and what there is without a room, every pixel in its light.
@@ -447,6 +424,11 @@ impl Stage {
         };
         self.render(mesh, Shader::Plain, &tell, camera);
     }
+}
+
+/// The parts that are drawn: a room brings some of its own.
+fn seen(parts: &[Part], has_room: bool) -> impl Iterator<Item = &Part> {
+    parts.iter().filter(move |part| !(has_room && part.is_of_room))
 }
 
 /// What is there already is multiplied by what is drawn.

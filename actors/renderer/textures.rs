@@ -1,6 +1,7 @@
 //! Textures that are computed: numbers, the nap of the cloth, the grain of wood.
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+use hapticbillard::noise::{between, lattice};
 use three_d::egui::FontDefinitions;
 use three_d::*;
 
@@ -87,7 +88,7 @@ pub fn scratches(context: &Context) -> Texture2D {
     let side = SCRATCH_SIDE as usize;
     let mut slopes = vec![[0.0f64; 2]; side * side];
     for n in 0..COUNT {
-        let chance = |what: i64| lattice(n, what, 1 << 20);
+        let chance = |what: i64| lattice(n, what);
         let (x, y) = (chance(1) * side as f64, chance(2) * side as f64);
         let (heading, bend) = (chance(3) * std::f64::consts::TAU, 0.02 * (chance(4) - 0.5));
         let length = 20.0 + 160.0 * chance(5) * chance(5);
@@ -113,24 +114,9 @@ pub fn scratches(context: &Context) -> Texture2D {
     Texture2D::new(context, &CpuTexture { data: TextureData::RgU8(data), ..plain })
 }
 
-/// A number from 0 to 1 for a place of a lattice that repeats.
-fn lattice(x: i64, y: i64, period: i64) -> f64 {
-    let (x, y) = (x.rem_euclid(period) as u64, y.rem_euclid(period) as u64);
-    let mut z = x.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ y.wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
-    z = (z ^ (z >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 32)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-}
-
 /// Smooth noise that repeats after `period` cells.
 fn noise(x: f64, y: f64, period: i64) -> f64 {
-    let (i, j) = (x.floor(), y.floor());
-    let smooth = |t: f64| t * t * (3.0 - 2.0 * t);
-    let (u, v) = (smooth(x - i), smooth(y - j));
-    let at = |dx: i64, dy: i64| lattice(i as i64 + dx, j as i64 + dy, period);
-    let low = at(0, 0) + (at(1, 0) - at(0, 0)) * u;
-    let high = at(0, 1) + (at(1, 1) - at(0, 1)) * u;
-    low + (high - low) * v
+    between(x, y, |i, j| lattice(i.rem_euclid(period), j.rem_euclid(period)))
 }
 
 fn grain(context: &Context, name: &str, at: impl Fn(f64, f64) -> f64) -> Texture2D {

@@ -67,7 +67,7 @@ impl Adviser {
 
     /// What it would play in this turn, on this table.
     pub fn ask(&self, mut turn: Arc<Turn>, table: &Snapshot) -> Question {
-        if is_practice(self.setup.game) {
+        if nobody_counts(self.setup.game) {
             // Nothing need be broken where nobody counts.
             Arc::make_mut(&mut turn).shot = ShotKind::Normal;
         }
@@ -84,7 +84,8 @@ impl Adviser {
     }
 }
 
-fn is_practice(game: GameKind) -> bool {
+/// Whether it is a game that nobody can win.
+fn nobody_counts(game: GameKind) -> bool {
     matches!(game, GameKind::FreePlay | GameKind::Training)
 }
 
@@ -106,7 +107,7 @@ impl Question {
         let deliberation = mind.deliberate(&self.task, workers);
         let Decision::Shoot(_) = deliberation.decision else { return None };
         let mut thoughts = deliberation.thoughts;
-        if is_practice(self.setup.game) {
+        if nobody_counts(self.setup.game) {
             choose_pot(&mut thoughts);
         }
         let planned = thoughts.candidates.iter().find(|candidate| candidate.chosen)?.clone();

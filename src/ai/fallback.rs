@@ -129,7 +129,7 @@ fn kick(
     rail: usize,
 ) -> Option<Kick> {
     let radius = view.ball_radius_m;
-    let half = 0.5 * DVec2::new(view.bed.length_m, view.bed.width_m) - DVec2::splat(radius);
+    let half = view.bed.half() - DVec2::splat(radius);
     let axis = rail / 2;
     let line = if rail.is_multiple_of(2) { half[axis] } else { -half[axis] };
     let mut image = position;
@@ -159,7 +159,7 @@ fn kick(
 
 /// How far a ball goes along `way` until it meets a rail [m].
 fn to_rail(view: &TableView2d, from: DVec2, way: DVec2) -> f64 {
-    let half = 0.5 * DVec2::new(view.bed.length_m, view.bed.width_m);
+    let half = view.bed.half();
     (0..2)
         .filter(|axis| way[*axis].abs() > 1e-9)
         .map(|axis| (half[axis] * way[axis].signum() - from[axis]) / way[axis])

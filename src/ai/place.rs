@@ -107,7 +107,7 @@ fn break_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVec
 /// A spot with room, evenly drawn from the zone.
 pub(super) fn random_spot(view: &TableView2d, zone: Zone, rng: &mut impl Rng) -> Option<DVec2> {
     let bed = &view.bed;
-    let half = 0.5 * DVec2::new(bed.length_m, bed.width_m);
+    let half = bed.half();
     let foot_end = match zone {
         Zone::Anywhere => half.x,
         Zone::Kitchen => bed.head_string_x(),

@@ -111,19 +111,15 @@ impl Surroundings<'_> {
         }
     }
 
-    /// Somebody who tells a person at mouse and keyboard what to play; none where nobody sits
-    /// there, nothing is played, or shots are computed in steps, which takes too long.
-    pub fn adviser(&self) -> Result<Option<Adviser>, PhysicsError> {
-        let (Some(referee), Some(bed)) = (self.referee, self.table.bed) else { return Ok(None) };
-        if !self.scene.has_hand() || self.scene.cue.is_none() {
-            return Ok(None);
-        }
-        let Own { simulation, in_steps } = self.own_simulation()?;
+    /// Somebody who tells a person what to play, by trying it on this table; none where nothing is
+    /// played.
+    pub fn adviser(&self, simulation: Simulation) -> Option<Adviser> {
+        let (referee, bed) = (self.referee?, self.table.bed?);
         let seed = self.scene.about.seed;
         let settings =
             PlayerSettings::of_strength(ADVISER_STRENGTH, seed, self.scene.physics.profile);
         let setup = self.mind_setup(simulation, &settings, bed, referee);
-        Ok((!in_steps).then(|| Adviser::new(setup, referee.clone())))
+        Some(Adviser::new(setup, referee.clone()))
     }
 
     fn settings(&self, section: &PlayerSection, id: PlayerId) -> Result<PlayerSettings, CastError> {
@@ -149,15 +145,19 @@ impl Surroundings<'_> {
         Ok(settings)
     }
 
-    /// A table on which a person looks ahead; none where nobody sits at mouse and keyboard, nobody
-    /// has a cue, or shots are computed in steps, which takes too long.
-    pub fn foresight(&self) -> Result<Option<Foresight>, PhysicsError> {
+    /// A table on which strokes are tried for a person; none where nobody sits at mouse and
+    /// keyboard, nobody has a cue, or shots are computed in steps, which takes too long.
+    pub fn tried_on(&self) -> Result<Option<Simulation>, PhysicsError> {
         if !self.scene.has_hand() || self.scene.cue.is_none() {
             return Ok(None);
         }
         let Own { simulation, in_steps } = self.own_simulation()?;
-        let balls = self.balls.iter().map(|(ball, _)| ball.clone()).collect();
-        Ok((!in_steps).then(|| Foresight::new(simulation, balls)))
+        Ok((!in_steps).then_some(simulation))
+    }
+
+    /// What a person sees ahead on this table.
+    pub fn foresight(&self, simulation: Simulation) -> Foresight {
+        Foresight::new(simulation, self.balls.iter().map(|(ball, _)| ball.clone()).collect())
     }
 
     /// The exact solver wherever it knows the scene's contact laws, whatever the game itself is

@@ -114,9 +114,9 @@ pub(super) struct Camera {
     from: CameraPose,
     set_out: DVec3,
     left: u64,
-    /// Where it was a tick ago, and a tick before that.
-    last: CameraPose,
-    before: CameraPose,
+    /// Where it was a tick ago [m], and how fast it came there [m/s].
+    last: DVec3,
+    speed: DVec3,
     /// It is led by hand.
     free: Option<Free>,
     /// Half the bed [m].
@@ -136,10 +136,10 @@ impl Camera {
             from: pose,
             set_out: DVec3::ZERO,
             left: 0,
-            last: pose,
-            before: pose,
+            last: pose.eye,
+            speed: DVec3::ZERO,
             free: None,
-            half_bed: bed.map_or(DVec2::ONE, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m)),
+            half_bed: bed.map_or(DVec2::ONE, Bed::half),
             room: Room::round(bed),
         }
     }
@@ -156,8 +156,7 @@ impl Camera {
     /// Leaves from where it is, as fast as it is.
     pub fn set_out(&mut self) {
         self.from = self.pose();
-        let speed = (self.last.eye - self.before.eye) / TICK_S;
-        self.set_out = speed.clamp_length_max(SET_OUT_M_S);
+        self.set_out = self.speed.clamp_length_max(SET_OUT_M_S);
         self.left = CAMERA_TICKS;
     }
 
@@ -215,7 +214,9 @@ impl Camera {
 
     /// A tick passes.
     pub fn step(&mut self) {
-        (self.before, self.last) = (self.last, self.pose());
+        let eye = self.pose().eye;
+        self.speed = (eye - self.last) / TICK_S;
+        self.last = eye;
         self.left = self.left.saturating_sub(1);
     }
 

@@ -278,14 +278,11 @@ impl Human {
             HandInput::Hold(aim) => self.hold_so(aim),
             HandInput::Steering(steering) => self.steering = steering,
             HandInput::StylusSpeed(factor) => self.stylus_speed = factor,
-            HandInput::Paused(paused) if paused == self.paused => {}
-            HandInput::Paused(_) => self.pause_or_resume(),
+            HandInput::Paused(paused) => self.set_paused(paused),
             HandInput::FocusLost => self.forget(),
             HandInput::PadLost => {
                 self.forget();
-                if !self.paused {
-                    self.pause_or_resume();
-                }
+                self.set_paused(true);
             }
             HandInput::Closed => return true,
         }
@@ -304,7 +301,7 @@ impl Human {
     }
 
     fn moved(&mut self, right: f64, upwards: f64, stroke: &mut f64) {
-        if self.held.has(Action::Look) || self.camera.is_free() || self.only_looks {
+        if self.looks_round() {
             self.camera.look(-right * LOOK_RAD_PER_HEIGHT, -upwards * LOOK_RAD_PER_HEIGHT);
             return;
         }

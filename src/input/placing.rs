@@ -45,7 +45,7 @@ impl Placing {
     pub fn hold_at(&mut self, at: DVec2, bed: Option<&Bed>, radius_m: f64) {
         self.at = at;
         if let Some(bed) = bed {
-            let half = 0.5 * DVec2::new(bed.length_m, bed.width_m) - DVec2::splat(radius_m);
+            let half = bed.half() - DVec2::splat(radius_m);
             self.at = self.at.clamp(-half, half);
         }
     }

@@ -77,7 +77,7 @@ pub fn ghost(
     });
     let first = met.min_by(|a, b| a.0.total_cmp(&b.0));
     let wall = bed.map(|bed| {
-        let half = 0.5 * DVec2::new(bed.length_m, bed.width_m) - DVec2::splat(radius_m);
+        let half = bed.half() - DVec2::splat(radius_m);
         let way = |from: f64, along: f64, half: f64| match along {
             0.0 => f64::INFINITY,
             _ => (half * along.signum() - from) / along,

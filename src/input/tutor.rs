@@ -87,7 +87,7 @@ impl Tutor {
 
     /// The lesson of now.
     pub fn lesson(&self) -> Lesson {
-        Lesson::ALL[self.at.min(Lesson::ALL.len() - 1)]
+        Lesson::ALL[self.at]
     }
 
     /// Which it is of how many.
@@ -109,7 +109,9 @@ impl Tutor {
         };
         // Whoever strikes before the lesson has done what it is about.
         if matches!(fact, Some(FactKind::CueBallStruck { .. })) && self.lesson() == Lesson::Aim {
-            self.go_to(Lesson::Wait);
+            // To strike is the next one.
+            self.skip();
+            self.skip();
         }
     }
 
@@ -120,9 +122,10 @@ impl Tutor {
 
     /// The player is seen.
     pub fn see(&mut self, view: &HumanView) {
+        let lesson = self.lesson();
         let began = self.began.get_or_insert_with(|| view.clone());
         let aims = view.mode == HumanMode::Aiming;
-        self.is_done |= match Lesson::ALL[self.at.min(Lesson::ALL.len() - 1)] {
+        self.is_done |= match lesson {
             Lesson::Look => {
                 let turned = (view.look.turn_rad - began.look.turn_rad).abs();
                 let risen = (view.look.rise_rad - began.look.rise_rad).abs();
@@ -141,19 +144,14 @@ impl Tutor {
             Lesson::Replay | Lesson::Undo | Lesson::End => false,
         };
         // The balls lie before the next thing is asked for.
-        if self.is_done && (aims || self.lesson() != Lesson::Wait) {
+        if self.is_done && (aims || lesson != Lesson::Wait) {
             self.skip();
         }
     }
 
     /// To the next lesson.
     pub fn skip(&mut self) {
-        self.at = (self.at + 1).min(Lesson::ALL.len() - 1);
-        (self.began, self.is_done) = (None, false);
-    }
-
-    fn go_to(&mut self, lesson: Lesson) {
-        self.at = Lesson::ALL.iter().position(|one| *one == lesson).unwrap_or(self.at);
-        (self.began, self.is_done) = (None, false);
+        let at = (self.at + 1).min(Lesson::ALL.len() - 1);
+        *self = Tutor { at, ..Tutor::default() };
     }
 }

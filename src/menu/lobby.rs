@@ -369,8 +369,6 @@ impl Lobby {
                 }
             }
             (_, Edge::Pressed) if action == Action::Replay => self.begin_replay(),
-            (_, Edge::Pressed) if action == Action::Traces => vec![Order::Do(action)],
-            _ if matches!(action, Action::Replay | Action::Traces) => Vec::new(),
             _ if self.game == Game::Over && matches!(action, Action::Pause | Action::Quit) => {
                 if edge == Edge::Pressed {
                     vec![Order::Quit]
@@ -533,11 +531,9 @@ const WINDOW: DVec2 = DVec2::new(1280.0, 720.0);
 /// Whether an action is one of the game's hand; the window does the others itself.
 fn is_for_hand(action: Action) -> bool {
     match action.controller() {
-        Controller::Cue
-        | Controller::Choice
-        | Controller::Eye
-        | Controller::Clock
-        | Controller::Leave => true,
+        Controller::Cue | Controller::Choice | Controller::Leave => true,
+        Controller::Eye => action != Action::Traces,
+        Controller::Clock => action != Action::Replay,
         Controller::Show => action == Action::Panel,
         Controller::Sound | Controller::Film | Controller::Window | Controller::Menu => false,
     }

@@ -378,6 +378,16 @@ fn place<T: PartialEq>(list: &[T], value: &T) -> usize {
     list.iter().position(|one| one == value).unwrap_or(0)
 }
 
+/// Where a speed stands on its scale, from one step on: what moves nothing is of no use.
+fn speed_place(percent: u16) -> usize {
+    (percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
+}
+
+/// What it makes of a movement.
+fn speed_factor(percent: u16) -> f64 {
+    f64::from(percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
+}
+
 impl Settings {
     /// Reads what [`Settings::to_toml`] wrote; what is missing is as usual.
     ///
@@ -433,12 +443,8 @@ impl Settings {
             Setting::StrengthTwo => (self.strength_2.min(STRENGTH_MAX) / STRENGTH_STEP).into(),
             Setting::Language => place(&TONGUES, &self.language),
             Setting::Volume => (self.volume_percent.min(VOLUME_MAX) / VOLUME_STEP).into(),
-            Setting::MouseSpeed => {
-                (self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
-            }
-            Setting::StylusSpeed => {
-                (self.stylus_percent.clamp(MOUSE_STEP, MOUSE_MAX) / MOUSE_STEP - 1).into()
-            }
+            Setting::MouseSpeed => speed_place(self.mouse_percent),
+            Setting::StylusSpeed => speed_place(self.stylus_percent),
             Setting::FullScreen => self.full_screen.into(),
             Setting::Rumble => self.rumble.into(),
             Setting::AimAid => place(&AimAid::ALL, &self.aim_aid),
@@ -533,12 +539,12 @@ impl Settings {
 
     /// What a movement of the mouse is multiplied by.
     pub fn mouse_factor(&self) -> f64 {
-        f64::from(self.mouse_percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
+        speed_factor(self.mouse_percent)
     }
 
     /// What a movement of a stylus is multiplied by where it points or leads the camera.
     pub fn stylus_factor(&self) -> f64 {
-        f64::from(self.stylus_percent.clamp(MOUSE_STEP, MOUSE_MAX)) / 100.0
+        speed_factor(self.stylus_percent)
     }
 
     /// What the scene's volume is multiplied by.

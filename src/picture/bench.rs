@@ -1,10 +1,8 @@
 //! The paper's tables of frames per second (section 4.4.1), row by row, and what a row is in words.
 
 use super::{Environment, PictureSettings, Preset, Shadows, Smoothing};
+use crate::quantile::nearest_rank;
 use serde::Serialize;
-
-/// Size of the paper's pictures [pixels].
-pub const BENCH_SIZE: (u32, u32) = (1440, 900);
 
 /// A table of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -111,13 +109,8 @@ impl FrameTimes {
     pub fn of(times_s: &[f64]) -> Option<Self> {
         let mut sorted = times_s.to_vec();
         sorted.sort_by(f64::total_cmp);
-        let last = sorted.len().checked_sub(1)?;
-        // The least value that so many are not above.
-        let at = |share: f64| {
-            let rank = libm::ceil(share * sorted.len() as f64) as usize;
-            1e3 * sorted[rank.saturating_sub(1).min(last)]
-        };
-        Some(FrameTimes { median: at(0.5), p95: at(0.95) })
+        let at = |share: f64| Some(1e3 * nearest_rank(&sorted, share)?);
+        Some(FrameTimes { median: at(0.5)?, p95: at(0.95)? })
     }
 }
 

@@ -16,7 +16,7 @@ const REFLECTION_PIXELS: (f32, f32) = (6.0, 11.0);
 const SCRATCH_PIXELS: (f32, f32) = (26.0, 55.0);
 
 /// The division of an icosahedron that has so many triangles, of those that there are.
-pub fn sphere_level(triangles: u16) -> u32 {
+fn sphere_level(triangles: u16) -> u32 {
     LEVELS.iter().find(|(count, _)| triangles <= *count).map_or(4, |(_, level)| *level)
 }
 

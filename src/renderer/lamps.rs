@@ -1,9 +1,11 @@
 //! The lamps over a table, in `f32` as graphics cards want them.
 
+use crate::room;
+
 /// Height of the lamps over the cloth [m].
-pub const LAMP_HEIGHT_M: f32 = 1.05;
+pub const LAMP_HEIGHT_M: f32 = room::LAMP_HEIGHT_M as f32;
 /// How far they hang from each other along the table [m].
-pub const LAMP_APART_M: f32 = 0.78;
+pub const LAMP_APART_M: f32 = room::LAMP_PITCH_M as f32;
 
 /// The middles of the lamps' shades [m].
 pub const LAMPS: [[f32; 3]; 3] = [

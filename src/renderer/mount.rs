@@ -38,11 +38,6 @@ struct Hung {
 }
 
 impl Mount {
-    /// The eye is where it is wanted, at rest.
-    pub fn reset(&mut self) {
-        self.hung = None;
-    }
-
     /// The same view with an eye that goes with its ball, where that is in this world. A ball that
     /// falls leaves the eye where it fell.
     pub fn carry(&mut self, mut view: HumanView, world: &Snapshot) -> HumanView {
@@ -62,19 +57,17 @@ impl Mount {
 
     /// The picture `dt` after the last one: the eye that should be at `wanted` hangs here.
     pub fn hang(&mut self, wanted: &CameraPose, room: &Room, dt: Seconds) -> CameraPose {
-        let Some(hung) = self.hung.filter(|_| (0.0..=LONGEST_S).contains(&dt)) else {
+        let Some(mut hung) = self.hung.filter(|_| (0.0..=LONGEST_S).contains(&dt)) else {
             let at = room.outside(wanted.eye, wanted.eye);
             self.hung = Some(Hung { at, velocity: DVec3::ZERO, wanted: wanted.eye });
             return CameraPose { eye: at, ..*wanted };
         };
-        let mut hung = hung;
         let steps = (dt / STEP_S).ceil().max(1.0);
         let (h, way) = (dt / steps, (wanted.eye - hung.wanted) / dt.max(1e-9));
         let is_jump = !(way.length() < FASTEST_M_S);
         let (from, speed) = if is_jump { (wanted.eye, DVec3::ZERO) } else { (hung.wanted, way) };
-        let mut left = if 0.0 < dt { steps as u32 } else { 0 };
-        while 0 < left {
-            left -= 1;
+        let count = if 0.0 < dt { steps as u32 } else { 0 };
+        for left in (0..count).rev() {
             let anchor = from + speed * (dt - f64::from(left) * h);
             hung.step(anchor, speed, room, h);
         }
@@ -235,7 +228,7 @@ mod tests {
         mount.hang(&at(DVec3::ZERO), &free(), DT);
         assert_eq!(mount.hang(&at(DVec3::ONE), &free(), 3.0).eye, DVec3::ONE);
         assert_eq!(mount.hang(&at(DVec3::NEG_ONE), &free(), f64::NAN).eye, DVec3::NEG_ONE);
-        mount.reset();
+        let mut mount = Mount::default();
         assert_eq!(mount.hang(&at(DVec3::X), &free(), DT).eye, DVec3::X);
     }
 }

@@ -1,13 +1,11 @@
 //! The film of a shot: what was seen of it, to be seen again.
 
 use super::between;
-use crate::ball::BallPlace;
 use crate::cue::CuePose;
 use crate::ids::BallId;
 use crate::input::BallWay;
 use crate::physics::Snapshot;
 use crate::units::Seconds;
-use glam::DVec3;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -87,11 +85,10 @@ pub struct Reel {
 impl Reel {
     /// Takes a state of the world; they come in the order of time.
     pub fn take(&mut self, frame: &Arc<Snapshot>) {
-        if let Some(until_s) = self.rests_s.filter(|rests_s| rests_s + TAIL_S < frame.time_s) {
-            self.cut(until_s);
+        if self.rests_s.is_some_and(|rests_s| rests_s + TAIL_S < frame.time_s) {
+            self.cut();
         }
-        let is_dense = self.now.len() < DENSE;
-        let step_s = STEP_S[usize::from(!is_dense)];
+        let step_s = if self.now.len() < DENSE { STEP_S[0] } else { STEP_S[1] };
         let is_next = self.now.back().is_none_or(|last| last.time_s + step_s <= frame.time_s);
         if !is_next || MOST <= self.now.len() {
             return;
@@ -110,12 +107,9 @@ impl Reel {
     /// A ball was struck.
     pub fn struck(&mut self, ball: BallId) {
         if !self.is_rolling {
-            self.cue_ball = ball;
             // What is left of the shot before.
-            if let Some(until_s) = self.rests_s {
-                self.cut(until_s);
-            }
-            self.is_rolling = true;
+            self.cut();
+            (self.cue_ball, self.is_rolling) = (ball, true);
             self.ways.clear();
         }
     }
@@ -136,9 +130,7 @@ impl Reel {
 
     /// The last shot, or as much of it as there is.
     pub fn film(&mut self) -> Option<Arc<Film>> {
-        if let Some(until_s) = self.rests_s {
-            self.cut(until_s);
-        }
+        self.cut();
         self.last.clone()
     }
 
@@ -152,22 +144,23 @@ impl Reel {
         &self.ways
     }
 
-    /// What was taken becomes a film.
-    fn cut(&mut self, rests_s: Seconds) {
+    /// What was taken of a shot whose balls have come to rest becomes a film.
+    fn cut(&mut self) {
+        let Some(rests_s) = self.rests_s.take() else { return };
         let end = self.now.partition_point(|frame| frame.time_s <= rests_s + TAIL_S);
         let frames: Vec<_> = self.now.drain(..end).collect();
         if !frames.is_empty() {
             let (cue_ball, ways) = (self.cue_ball, self.ways.clone());
             self.last = Some(Arc::new(Film { frames, cue_ball, ways }));
         }
-        self.rests_s = None;
     }
 
     /// The ways go on.
     fn follow(&mut self, frame: &Snapshot) {
-        for ball in frame.balls.iter().filter(|ball| ball.place == BallPlace::OnTable) {
+        for ball in frame.on_table() {
             let Some(way) = self.ways.iter_mut().find(|way| way.ball == ball.id) else {
-                self.ways.push(first_point(ball.id, ball.position));
+                let points = vec![ball.position];
+                self.ways.push(BallWay { ball: ball.id, points, rests: false });
                 continue;
             };
             // Whoever falls is not followed under the table.
@@ -181,14 +174,11 @@ impl Reel {
     }
 }
 
-fn first_point(ball: BallId, at: DVec3) -> BallWay {
-    BallWay { ball, points: vec![at], rests: false }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::ball::BallState;
+    use glam::DVec3;
 
     /// A ball that is struck after two seconds and rolls at 1 m/s for three.
     fn at(time_s: f64) -> Arc<Snapshot> {

@@ -17,7 +17,7 @@ const BACK_M: f64 = EAST_M - 0.78;
 /// Height of the counter [m].
 const COUNTER_M: f64 = 1.06;
 
-pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) {
+pub(super) fn build(b: &mut Builder, floor: f64) {
     let at = DVec3::new(0.0, 0.0, floor);
     b.stand(at, 0.0);
     counter(b);
@@ -26,15 +26,20 @@ pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) 
         b.stand(at + DVec3::new(FRONT_M - 0.42, y, 0.0), 0.3 * y);
         stool(b, 0.74);
     }
-    // Stools, counter, and who serves there; shelves above.
-    obstacles.push(Obstacle {
-        least: DVec3::new(FRONT_M - 0.65, -HALF_M - 0.08, 0.0),
-        most: DVec3::new(EAST_M, HALF_M + 0.08, COUNTER_M + 0.05),
-    });
-    obstacles.push(Obstacle {
-        least: DVec3::new(EAST_M - 0.36, -HALF_M, 0.0),
-        most: DVec3::new(EAST_M, HALF_M, 2.08),
-    });
+}
+
+/// Stools, counter, and who serves there; shelves above. They stand at z = 0.
+pub(super) fn obstacles() -> [Obstacle; 2] {
+    [
+        Obstacle {
+            least: DVec3::new(FRONT_M - 0.65, -HALF_M - 0.08, 0.0),
+            most: DVec3::new(EAST_M, HALF_M + 0.08, COUNTER_M + 0.05),
+        },
+        Obstacle {
+            least: DVec3::new(EAST_M - 0.36, -HALF_M, 0.0),
+            most: DVec3::new(EAST_M, HALF_M, 2.08),
+        },
+    ]
 }
 
 fn counter(b: &mut Builder) {

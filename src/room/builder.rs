@@ -22,7 +22,7 @@ pub struct Vertex {
     pub grain: DVec2,
     /// Coordinates in the light map [texels].
     pub light: DVec2,
-    /// What it is made of: a number of [`super::Room::finishes`].
+    /// What it is made of: a number of [`super::Surfaces::finishes`].
     pub finish: u16,
     /// Its chart.
     pub chart: u16,

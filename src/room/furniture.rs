@@ -14,7 +14,7 @@ const FINE: Lay = Lay::of(30.0);
 const WALL_M: f64 = WIDE_M;
 const PANEL_FACE_M: f64 = WIDE_M - PANEL_DEPTH_M;
 
-pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) {
+pub(super) fn build(b: &mut Builder, floor: f64) {
     let on_wall = |b: &mut Builder, x: f64, side: f64, z: f64| {
         // Own x to the right, own y into the wall, as seen from the room.
         let turn = if side > 0.0 { 0.0 } else { PI };
@@ -53,23 +53,26 @@ pub(super) fn build(b: &mut Builder, floor: f64, obstacles: &mut Vec<Obstacle>) 
         b.stand(DVec3::new(x, y, floor), y);
         barrel(b);
     }
-    // What stands together is one obstacle, up to its wall: nobody is caught in between.
-    obstacles.push(Obstacle {
-        least: DVec3::new(-1.56, -WIDE_M, 0.0),
-        most: DVec3::new(0.01, -2.39, 1.12),
-    });
-    obstacles.push(Obstacle {
-        least: DVec3::new(WEST_M, -WIDE_M, 0.0),
-        most: DVec3::new(WEST_M + 0.86, -1.78, 0.92),
-    });
-    obstacles.push(Obstacle {
-        least: DVec3::new(-1.35, WIDE_M - 0.2, 0.0),
-        most: DVec3::new(-0.25, WIDE_M, 2.1),
-    });
-    obstacles.push(Obstacle {
-        least: DVec3::new(0.66, WIDE_M - 0.56, 0.0),
-        most: DVec3::new(2.54, WIDE_M, 0.95),
-    });
+}
+
+/// What stands together is one obstacle, up to its wall: nobody is caught in between. They stand at
+/// z = 0.
+pub(super) fn obstacles() -> [Obstacle; 4] {
+    [
+        Obstacle { least: DVec3::new(-1.56, -WIDE_M, 0.0), most: DVec3::new(0.01, -2.39, 1.12) },
+        Obstacle {
+            least: DVec3::new(WEST_M, -WIDE_M, 0.0),
+            most: DVec3::new(WEST_M + 0.86, -1.78, 0.92),
+        },
+        Obstacle {
+            least: DVec3::new(-1.35, WIDE_M - 0.2, 0.0),
+            most: DVec3::new(-0.25, WIDE_M, 2.1),
+        },
+        Obstacle {
+            least: DVec3::new(0.66, WIDE_M - 0.56, 0.0),
+            most: DVec3::new(2.54, WIDE_M, 0.95),
+        },
+    ]
 }
 
 /// Six cues before a board.

@@ -3,6 +3,8 @@
 //! Each tile multiplies a colour and is 1 on average, so that light baked from the colour alone is
 //! the light of what is seen.
 
+use crate::noise::{between, lattice};
+
 /// A pattern that repeats every [`Grain::tile_m`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Grain {
@@ -112,7 +114,7 @@ fn brick(u: f64, v: f64) -> [f64; 3] {
     let (fx, fy) = (x - x.floor(), y - course);
     let edge = (fx.min(1.0 - fx) * 0.25).min(fy.min(1.0 - fy) * 0.075) + wave;
     let is_brick = smooth(0.003, 0.0065, edge);
-    let own = |salt: i64| lattice(column, course as i64 + salt * 100, 1 << 40);
+    let own = |salt: i64| lattice(column, course as i64 + salt * 100);
     let crumbs = 0.5 * noise(u, v, 128) + 0.5 * noise(u, v, 53);
     let tone = (0.62 + 0.62 * own(1)) * (0.78 + 0.44 * crumbs);
     // Some are burnt darker, some yellower.
@@ -137,14 +139,14 @@ fn boards(u: f64, v: f64) -> [f64; 3] {
     let y = v * 8.0;
     let board = y.floor() as i64;
     // Each board has its own tree, its own colour, and ends somewhere else.
-    let own = |salt: i64| lattice(board, salt, 1 << 40);
+    let own = |salt: i64| lattice(board, salt);
     let end = (u + own(4)).rem_euclid(1.0);
     let half = if end < 0.5 { 0 } else { 7 };
     let fy = y - y.floor();
     let to_joint =
         (fy.min(1.0 - fy) * 0.14).min((end.min(1.0 - end)).min((end - 0.5).abs()) * 2.24);
     let joint = smooth(0.0006, 0.0045, to_joint);
-    let tint = 0.70 + 0.62 * lattice(board, 20 + half, 1 << 40);
+    let tint = 0.70 + 0.62 * lattice(board, 20 + half);
     let grain = wood(u, v * 1.9, own(6) * 5.0 + half as f64, 2.0);
     let worn = 0.86 + 0.28 * noise(u, v, 7);
     let x = grain * tint * worn * (0.22 + 0.78 * joint);
@@ -157,7 +159,7 @@ fn panels(u: f64, v: f64) -> [f64; 3] {
     let fx = x - x.floor();
     let groove = smooth(0.0, 0.05, fx.min(1.0 - fx));
     let bead = 1.0 + 0.35 * smooth(0.10, 0.06, fx) * smooth(0.03, 0.055, fx);
-    let own = lattice(panel, 3, 1 << 40);
+    let own = lattice(panel, 3);
     let tone = wood(v, u, own * 9.0, 3.0) * (0.85 + 0.3 * own);
     [tone * bead * (0.25 + 0.75 * groove); 3]
 }
@@ -167,15 +169,6 @@ fn smooth(from: f64, to: f64, x: f64) -> f64 {
     t * t * (3.0 - 2.0 * t)
 }
 
-/// A number from 0 to 1 for a place of a lattice that repeats.
-fn lattice(x: i64, y: i64, period: i64) -> f64 {
-    let (x, y) = (x.rem_euclid(period) as u64, y.rem_euclid(period) as u64);
-    let mut z = x.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ y.wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
-    z = (z ^ (z >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 32)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-}
-
 /// Smooth noise of so many cells a tile.
 fn noise(u: f64, v: f64, cells: i64) -> f64 {
     noise_of(u * cells as f64, v * cells as f64, (cells, cells))
@@ -183,16 +176,7 @@ fn noise(u: f64, v: f64, cells: i64) -> f64 {
 
 /// Smooth noise that repeats after these numbers of cells.
 fn noise_of(x: f64, y: f64, (across, up): (i64, i64)) -> f64 {
-    let (i, j) = (x.floor(), y.floor());
-    let ease = |t: f64| t * t * (3.0 - 2.0 * t);
-    let (a, b) = (ease(x - i), ease(y - j));
-    let at = |di: i64, dj: i64| {
-        let (column, row) = ((i as i64 + di).rem_euclid(across), (j as i64 + dj).rem_euclid(up));
-        lattice(column + 7 * across, row, 1 << 40)
-    };
-    let low = at(0, 0) + (at(1, 0) - at(0, 0)) * a;
-    let high = at(0, 1) + (at(1, 1) - at(0, 1)) * a;
-    low + (high - low) * b
+    between(x, y, |i, j| lattice(i.rem_euclid(across) + 7 * across, j.rem_euclid(up)))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ pub const LAMP_HEIGHT_M: f64 = 1.05;
 /// From the middle of one shade to that of the next, along the table [m].
 pub const LAMP_PITCH_M: f64 = 0.78;
 /// Radius of a shade's rim [m].
-pub const SHADE_RADIUS_M: f64 = 0.25;
+const SHADE_RADIUS_M: f64 = 0.25;
 /// Radius of the glass that gives the light [m].
 const GLASS_RADIUS_M: f64 = 0.19;
 /// The glass hangs so much above the rim [m].
@@ -23,7 +23,7 @@ const BAR_M: f64 = 0.42;
 pub(super) const RADIANCE: f32 = 20.4;
 
 /// The middles of the three shades [m].
-pub fn shades() -> [DVec2; 3] {
+pub(super) fn shades() -> [DVec2; 3] {
     [-1.0, 0.0, 1.0].map(|k| DVec2::new(k * LAMP_PITCH_M, 0.0))
 }
 

@@ -14,7 +14,7 @@ const LEG_ROWS: u32 = 12;
 
 /// A chart that is seen from above: `light = at + scale * (x, y)`, in texels once it has a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FromAbove {
+pub(super) struct FromAbove {
     /// Its chart.
     pub(super) chart: u16,
     /// The texel of the table's middle, from the chart's corner.

@@ -13,7 +13,7 @@ pub(super) struct Texel {
     pub number: u32,
     /// Its chart.
     pub chart: u16,
-    /// Points with their normals, and how far a ray must start away from them [m].
+    /// The points.
     pub points: Vec<Point>,
 }
 

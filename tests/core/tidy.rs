@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 
 /// The modules of `src`, lowest layer first. A module may use its own row and the rows above it.
 const LAYERS: [&[&str]; 18] = [
-    &["units", "ids", "hash", "ball", "mesh", "cue", "events", "picture", "shipped", "one_line"],
+    &[
+        "units", "ids", "hash", "ball", "mesh", "cue", "events", "picture", "shipped", "one_line",
+        "noise", "quantile",
+    ],
     &["table", "rack"],
     // What stands round a table, and the light in it; nothing of it is in a game without pictures.
     &["room"],

@@ -21,6 +21,7 @@ take touching --scene eight_ball --preset very_high \
   --eye 0.44,-0.13,0.11 --target 0.66,0.0,0.02
 take pocket --scene "$here/pocket.toml" --at 0.46 --preset very_high \
   --eye 0.82,0.16,0.30 --target 1.27,0.64,-0.02
+take room --scene eight_ball --eye -3.4,-2.2,0.9 --target 0.4,0.3,0.2
 take birds_eye --scene break_shot --at 0.5 --from above
 for shadows in off soft maps volumes; do
   take "shadows_$shadows" --scene break_shot --at 0.5 $near --preset high --options "shadows=$shadows"

@@ -18,6 +18,7 @@ use hapticbillard_actors::files::load_scene;
 use hapticbillard_actors::game::Stage;
 use hapticbillard_actors::renderer::{Studio, number_layer};
 use smallvec::smallvec;
+use std::sync::Arc;
 
 const SIZE: (u32, u32) = (320, 200);
 
@@ -28,7 +29,7 @@ fn picture(table: &Table, list: &DrawList) -> Option<Vec<[u8; 4]>> {
 
 /// Where pictures are made, or nothing where this machine cannot draw.
 fn studio(table: &Table) -> Option<Studio> {
-    Studio::new(table).inspect_err(|error| println!("skipped: {error}")).ok()
+    Studio::new(&Arc::new(table.clone())).inspect_err(|error| println!("skipped: {error}")).ok()
 }
 
 /// As shipped, with smooth edges.

@@ -1,5 +1,6 @@
 //! A game in a window: the ports of both joined.
 
+use super::super::render;
 use super::felt::{Watched, felt};
 use super::kept_keys::KeptKeys;
 use super::kept_settings::Kept;
@@ -138,10 +139,7 @@ fn backdrop(stage: &Stage) -> Result<Backdrop, Error> {
 }
 
 fn radii(stage: &Stage) -> Result<Radii, Error> {
-    let balls = stage.scene.build_balls(&stage.table)?;
-    Ok(Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
-        .with_set(stage.scene.equipment().into())
-        .with_tip(stage.scene.parameters().tip_radius_m))
+    Ok(render::radii(stage)?.with_tip(stage.scene.parameters().tip_radius_m))
 }
 
 fn window(stage: &Stage, menu: Option<Menu>, begins: bool) -> WindowSetup {

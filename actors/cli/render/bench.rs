@@ -62,15 +62,20 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
     use hapticbillard::events::FactSet;
     use hapticbillard::input::HumanView;
     use hapticbillard::picture::{BenchRow, Environment, FrameTimes, bench_markdown, bench_rows};
-    use hapticbillard::renderer::{DrawList, Radii};
+    use hapticbillard::renderer::DrawList;
     use hapticbillard_actors::files::{load_scene, write_whole};
     use hapticbillard_actors::game::Stage;
     use hapticbillard_actors::renderer::Studio;
 
+    let only = args.only.as_deref().unwrap_or_default();
+    let rows: Vec<_> = bench_rows().into_iter().filter(|row| row.name().contains(only)).collect();
+    if rows.is_empty() {
+        let names: Vec<String> = bench_rows().iter().map(BenchRow::name).collect();
+        let problem = format!("no row has '{only}' in its name");
+        return Err(Error::input("--only", problem, format!("rows are {}", names.join("; "))));
+    }
     let stage = Stage::new(&load_scene(&args.scene)?, &args.scene)?;
-    let balls = stage.scene.build_balls(&stage.table)?;
-    let radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
-        .with_set(stage.scene.equipment().into());
+    let radii = super::radii(&stage)?;
     let mut simulation = stage.simulation()?;
     let mut lists = Vec::new();
     for frame in 0..args.frames {
@@ -81,13 +86,6 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
     }
     let mut studio = Studio::new(&stage.table)?;
     let device = studio.card();
-    let only = args.only.as_deref().unwrap_or_default();
-    let rows: Vec<_> = bench_rows().into_iter().filter(|row| row.name().contains(only)).collect();
-    if rows.is_empty() {
-        let names: Vec<String> = bench_rows().iter().map(BenchRow::name).collect();
-        let problem = format!("no row has '{only}' in its name");
-        return Err(Error::input("--only", problem, format!("rows are {}", names.join("; "))));
-    }
     let mut times = vec![Vec::new(); rows.len()];
     let bar = progress(u64::from(args.rounds) * rows.len() as u64, "measuring");
     for _ in 0..args.rounds {

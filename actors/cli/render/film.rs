@@ -173,9 +173,7 @@ mod filming {
                 (Stage::new(&load_scene(scene)?, scene)?, None)
             }
         };
-        let balls = stage.scene.build_balls(&stage.table)?;
-        let mut radii = Radii::new(balls.iter().map(|(ball, _)| (ball.id, ball.radius_m)))
-            .with_set(stage.scene.equipment().into());
+        let mut radii = super::super::radii(&stage)?;
         radii.mark(settings.marks);
         let mut world = match recording {
             None => World::Free(Box::new(stage.simulation()?)),

@@ -4,6 +4,7 @@ use super::plan::{Match, Plan};
 use crate::cli::racks::Rack;
 use hapticbillard::hash::Digest;
 use hapticbillard::ids::PlayerId;
+use hapticbillard::quantile::nearest_rank;
 use hapticbillard::replay::TickHash;
 use hapticbillard::scene::Entrant;
 use hapticbillard::tally::{Account, Decision, Tally, wilson};
@@ -262,7 +263,7 @@ impl Times {
         let ms = |of: fn(&Took) -> f64| {
             let mut all: Vec<f64> = took.iter().map(of).collect();
             all.sort_by(f64::total_cmp);
-            [0.5, 0.95].map(|share| nearest_rank(&all, share))
+            [0.5, 0.95].map(|share| nearest_rank(&all, share).unwrap_or(0.0))
         };
         Times {
             decisions: took.len(),
@@ -272,21 +273,12 @@ impl Times {
     }
 }
 
-/// The value that so large a share of the sorted ones does not exceed; 0 if there is none.
-fn nearest_rank(sorted: &[f64], share: f64) -> f64 {
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted.get(rank.max(1) - 1).copied().unwrap_or(0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_rank_is_a_value_that_was_measured() {
-        let values: Vec<f64> = (1..=20).map(f64::from).collect();
-        assert_eq!([0.5, 0.95, 1.0].map(|share| nearest_rank(&values, share)), [10.0, 19.0, 20.0]);
-        assert_eq!(nearest_rank(&[7.0], 0.5), 7.0);
-        assert_eq!(nearest_rank(&[], 0.5), 0.0);
+    fn decisions_that_nobody_took_took_no_time() {
+        assert_eq!(Times::of(&[]), Times::default());
     }
 }

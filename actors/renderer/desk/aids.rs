@@ -4,7 +4,6 @@ use super::super::advice::Answer;
 use super::{Desk, SAID};
 use hapticbillard::input::{Action, HandInput, View};
 use hapticbillard::menu::Order;
-use hapticbillard::renderer::Words;
 use std::time::Instant;
 
 impl Desk<'_> {
@@ -15,7 +14,6 @@ impl Desk<'_> {
 
     /// Does what helps in a game; false if this is nothing of the kind.
     pub(super) fn help_by(&mut self, action: Action) -> bool {
-        let words = Words::new(self.spoken);
         let Some(game) = &mut self.game else { return false };
         match action {
             Action::Traces => game.shows_traces ^= true,
@@ -26,7 +24,7 @@ impl Desk<'_> {
                     Ok(()) => "advice_asked",
                     Err(why) => why.text(),
                 };
-                self.say(words.get(key));
+                self.say(self.over.get(key));
             }
             _ => return false,
         }
@@ -35,7 +33,6 @@ impl Desk<'_> {
 
     /// What came of what was asked, and what the game shows anew since the last picture.
     pub(super) fn look_after_aids(&mut self) {
-        let words = Words::new(self.spoken);
         let Some(game) = &mut self.game else { return };
         self.lobby.see_film(game.film.has_film());
         if game.film.is_over() {
@@ -52,12 +49,12 @@ impl Desk<'_> {
                 game.outbox.say(HandInput::Hold(advice.aim));
                 let speed = format!("{:.1}", advice.speed_m_s);
                 let chance = format!("{:.0}", 100.0 * advice.chance);
-                words.fill("advice", "speed", &speed).replace("{chance}", &chance)
+                self.over.fill("advice", "speed", &speed).replace("{chance}", &chance)
             }
-            Some(Answer::Nothing) => words.get("advice_nothing"),
-            Some(Answer::Late) => words.get("advice_not_now"),
+            Some(Answer::Nothing) => self.over.get("advice_nothing"),
+            Some(Answer::Late) => self.over.get("advice_not_now"),
             None => match self.new_view() {
-                Some(view) => words.get(view.name()),
+                Some(view) => self.over.get(view.name()),
                 None => return,
             },
         };

@@ -6,7 +6,7 @@ use super::super::stage::BACKGROUND;
 use super::Desk;
 use hapticbillard::menu::Order;
 use hapticbillard::picture::PictureSettings;
-use hapticbillard::renderer::{DrawList, HelpOf, Hud, WheelPanel, Words};
+use hapticbillard::renderer::{DrawList, HelpOf, Hud, WheelPanel};
 use std::time::Instant;
 use three_d::{ClearState, CoreError, RenderTarget, Viewport, egui};
 
@@ -38,7 +38,7 @@ impl Desk<'_> {
         if size.width == 0 || size.height == 0 {
             return;
         }
-        let text = Words::new(self.spoken).get("preparing");
+        let text = self.over.get("preparing");
         let viewport = Viewport::new_at_origo(size.width, size.height);
         self.gui.update(&mut [], self.start.elapsed().as_secs_f64() * 1e3, viewport, 1.0, |ui| {
             let layer = egui::LayerId::background();
@@ -97,8 +97,7 @@ impl Desk<'_> {
             Some(game) if !self.lobby.is_menu_open() => game.help(is_by_pad),
             _ => HelpOf::Menu,
         };
-        let words = Words::new(self.spoken).with_keys(self.lobby.bindings());
-        Some((words.get("help_title"), words.help(of)))
+        Some((self.over.get("help_title"), self.over.help(of)))
     }
 
     /// Draws the next picture, if it is another one. Whether it was.
@@ -183,7 +182,7 @@ impl Desk<'_> {
         let kept = encoded(rows, size)
             .map_err(|error| error.to_string())
             .and_then(|png| self.host.picture(&png).map_err(|error| error.to_string()));
-        let words = Words::new(self.spoken);
+        let words = &self.over;
         let said = match kept {
             Ok(path) => words.fill("picture", "path", &path.display().to_string()),
             Err(reason) => words.fill("no_picture", "reason", &reason),

@@ -5,7 +5,7 @@ uniform vec3 eye;
 // Half the length and width between the noses; zero without a table.
 uniform vec2 bed;
 
-
+#if ROOM == 1
 // The light map of the room. Where in it is, by middle and half side, what mirrors see of the room,
 // and, by offset and factor of x and y, the light on bed and rails.
 uniform sampler2D room_light;
@@ -14,6 +14,7 @@ uniform vec4 bed_light;
 uniform vec4 rail_light;
 // The light on the sides of the rails.
 uniform vec3 side_light;
+#endif
 
 const vec3 LAMP_COLOUR = vec3(1.0, 0.93, 0.80);
 const vec3 DARK = vec3(0.010, 0.0095, 0.011);
@@ -49,11 +50,13 @@ vec3 received(vec3 at, vec3 normal, vec3 seen) {
     return LAMP_COLOUR * (0.92 * dot(shares(at, normal), seen)) + ambient(normal);
 }
 
+#if ROOM == 1
 // The light of a place in the map, in units of a white surface in full light.
 vec3 baked(vec2 place) {
     vec3 root = texture(room_light, place).rgb;
     return root * root * 2.0;
 }
+#endif
 
 // What there is of the room in a direction, seen from the table: an octahedron, unfolded.
 vec3 room_towards(vec3 way) {

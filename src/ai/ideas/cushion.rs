@@ -14,7 +14,7 @@ pub(super) struct Cushion {
 /// The four cushions, opposite ones one after the other.
 pub(super) fn cushions(position: &Position<'_>) -> [Cushion; 4] {
     let bed = &position.view.bed;
-    let half = 0.5 * DVec2::new(bed.length_m, bed.width_m) - DVec2::splat(position.radius());
+    let half = bed.half() - DVec2::splat(position.radius());
     [(0, half.x), (0, -half.x), (1, half.y), (1, -half.y)]
         .map(|(axis, at_m)| Cushion { axis, at_m })
 }

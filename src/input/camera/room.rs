@@ -28,7 +28,7 @@ impl Room {
     pub fn round(bed: Option<&Bed>) -> Self {
         let Some(bed) = bed else { return Room::default() };
         let (wider, low, high) = TABLE_M;
-        let half = 0.5 * (DVec2::new(bed.length_m, bed.width_m) + DVec2::splat(wider));
+        let half = bed.half() + DVec2::splat(0.5 * wider);
         let (lamp, under, over) = LAMP_M;
         let boxes = vec![
             ((-half).extend(low), half.extend(high)),

@@ -49,9 +49,16 @@ impl Human {
         self.change_aim(|held| *held = aim);
     }
 
-    /// Time stands still, or goes on.
+    /// Time stands still, or goes on: the other of the two.
     pub(super) fn pause_or_resume(&mut self) {
-        self.paused = !self.paused;
+        self.set_paused(!self.paused);
+    }
+
+    /// Time stands still, or goes on.
+    pub(super) fn set_paused(&mut self, paused: bool) {
+        if std::mem::replace(&mut self.paused, paused) == paused {
+            return;
+        }
         if self.paused {
             // Nobody holds a cue through a pause.
             self.let_go();

@@ -1,7 +1,7 @@
 //! What the person sees, and from where.
 
 use super::super::camera::Viewpoint;
-use super::super::{AimAid, HumanMode, HumanView, View, sight};
+use super::super::{Action, AimAid, HumanMode, HumanView, View, sight};
 use super::{Human, KeyStroke, Stage};
 use crate::events::Turn;
 use crate::ids::BallId;
@@ -78,6 +78,11 @@ impl Human {
             view.mode = HumanMode::Paused;
         }
         view
+    }
+
+    /// Whether the mouse, or a stick, looks round now.
+    pub(super) fn looks_round(&self) -> bool {
+        self.held.has(Action::Look) || self.camera.is_free() || self.only_looks
     }
 
     /// The straight way to what is met first, if it is wanted.

@@ -1,11 +1,11 @@
 //! A turn by a gamepad: what its sticks move in a tick, and a stroke by its trigger.
 
+use super::super::Stick;
 use super::super::feel::{
     AIM_RAD_PER_S, ELEVATION_RAD_PER_S, LOOK_RAD_PER_S, OFFSET_PER_S, PLACING_M_PER_S,
     STICK_PLACING, STICK_TURN,
 };
 use super::super::pad::{Pulled, TriggerPull};
-use super::super::{Action, Stick};
 use super::{Human, KeyStroke, Stage};
 use crate::units::TICK_S;
 use glam::DVec2;
@@ -43,7 +43,7 @@ impl Human {
     /// What the sticks do in one tick.
     pub(super) fn hold_sticks(&mut self) {
         let Sticks { left, right, .. } = self.sticks;
-        let looks = self.held.has(Action::Look) || self.camera.is_free() || self.only_looks;
+        let looks = self.looks_round();
         if looks && right != DVec2::ZERO {
             let by = right * (LOOK_RAD_PER_S * TICK_S);
             self.camera.look(-by.x, by.y);

@@ -1,11 +1,12 @@
 //! What a person says besides strokes: calls, options, and what is asked for in training.
 
-use super::super::calling::{self, Sight};
+use super::super::calling::{self, Calling, Sight};
 use super::{Human, Stage};
 use crate::events::{Command, Zone};
 use crate::ids::BallId;
 use crate::input::Action;
 use crate::input::placing::Placing;
+use crate::table::Bed;
 use glam::DVec2;
 
 impl Human {
@@ -82,14 +83,18 @@ impl Human {
                 }
             }
             Stage::Aiming => {
-                let mut calling = std::mem::take(&mut self.calling);
-                if let Some(sight) = self.call_sight() {
-                    calling.change(action, backwards, &sight);
-                }
-                self.calling = calling;
+                self.with_call(|calling, sight| calling.change(action, backwards, sight));
             }
             _ => {}
         }
+    }
+
+    /// Does something to what is called, if there is a turn to call in.
+    fn with_call<T>(&mut self, change: impl FnOnce(&mut Calling, &Sight<'_>) -> T) -> Option<T> {
+        let mut calling = std::mem::take(&mut self.calling);
+        let changed = self.call_sight().map(|sight| change(&mut calling, &sight));
+        self.calling = calling;
+        changed
     }
 
     /// A pocket is to be pointed at, or is no longer; only where pockets are called.
@@ -114,25 +119,17 @@ impl Human {
     pub(super) fn point_at(&mut self, at: DVec2) {
         let at = self.on_bed(at);
         self.pointing = Some(at);
-        let mut calling = std::mem::take(&mut self.calling);
-        if let Some(sight) = self.call_sight() {
-            calling.point_at(at, &sight);
-        }
-        self.calling = calling;
+        self.with_call(|calling, sight| calling.point_at(at, sight));
     }
 
     fn on_bed(&self, at: DVec2) -> DVec2 {
-        let bed = self.table.bed.as_ref();
-        let half = bed.map_or(DVec2::ZERO, |bed| 0.5 * DVec2::new(bed.length_m, bed.width_m));
+        let half = self.table.bed.as_ref().map_or(DVec2::ZERO, Bed::half);
         at.clamp(-half, half)
     }
 
     /// Says what the stroke that begins is meant to do.
     pub(super) fn announce(&mut self) {
-        let mut calling = std::mem::take(&mut self.calling);
-        let call = self.call_sight().and_then(|sight| calling.say(&sight));
-        self.calling = calling;
-        if let Some(call) = call {
+        if let Some(call) = self.with_call(Calling::say).flatten() {
             self.command(Command::Call(call));
         }
     }
@@ -158,10 +155,6 @@ impl Human {
 
     /// The aim has changed: what was chosen by key for another one is forgotten.
     pub(super) fn follow_with_call(&mut self) {
-        let mut calling = std::mem::take(&mut self.calling);
-        if let Some(sight) = self.call_sight() {
-            calling.follow(&sight);
-        }
-        self.calling = calling;
+        self.with_call(Calling::follow);
     }
 }

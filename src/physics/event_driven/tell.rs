@@ -12,7 +12,7 @@ use crate::ids::{BallId, PocketId, Rail};
 use crate::mesh::Surface;
 use crate::physics::{Ledger, checks, racks, tolerance};
 use crate::units::Seconds;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// A pair that has not met for so long has parted in between [s].
 const APART_S: Seconds = 0.05;
@@ -103,8 +103,7 @@ impl EventDriven {
     fn rails_at(&self, centre: DVec3, radius_m: f64) -> u8 {
         // Far inside of the noses there are none.
         let inside = |bed: crate::table::Bed| {
-            let half = DVec2::new(bed.length_m, bed.width_m) * 0.5;
-            (half - centre.truncate().abs()).min_element() > radius_m + tolerance::APART_M
+            (bed.half() - centre.truncate().abs()).min_element() > radius_m + tolerance::APART_M
         };
         if self.terrain.bed.is_some_and(inside) {
             return 0;
