@@ -54,6 +54,8 @@ mod seeker;
 mod shadows;
 
 mod stage;
+/// What stands still.
+mod still;
 
 mod textures;
 

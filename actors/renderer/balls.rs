@@ -5,7 +5,9 @@ use super::stage::darkening;
 use super::textures;
 use hapticbillard::ids::BallId;
 use hapticbillard::picture::{BallDetail, Environment, PictureSettings, Shadows};
-use hapticbillard::renderer::{BallInstance, DrawList, LAMPS, Shape, ball_look, sphere};
+use hapticbillard::renderer::{
+    BallInstance, DrawList, LAMPS, Shape, ball_look, shadow_reach_m, sphere,
+};
 use std::collections::BTreeMap;
 use three_d::*;
 
@@ -15,14 +17,8 @@ const MIRRORED: usize = 32;
 const LEVELS: [u32; 3] = [2, 3, 4];
 /// How far shadows float above the cloth [m]: above the marks on it.
 const SHADOW_LIFT_M: f32 = 0.0011;
-/// Half the side of a shadow's square, in radii.
-const SHADOW_REACH: f32 = 4.4;
 /// How far pockets reach into the bed [m].
 const POCKET_M: f32 = 0.09;
-/// The same for each metre that a ball is above the cloth: lamps stand low over far ends.
-const SHADOW_REACH_PER_M: f32 = 2.0;
-/// A ball that is higher throws no shadow that is worth drawing [radii].
-const SHADOW_HEIGHT: f32 = 12.0;
 /// How dark the shadow of a see-through ball is.
 const GHOST_SHADOW: f32 = 0.6;
 
@@ -279,10 +275,7 @@ impl Balls {
         let ghosts = list.ghosts.iter().map(|ghost| (ghost.position, ghost.radius_m, GHOST_SHADOW));
         let mut groups: [(Vec<Vec4>, Vec<Vec3>); 2] = Default::default();
         for ([x, y, z], radius_m, depth) in solid.chain(ghosts) {
-            // One on its way down a pocket throws none.
-            if (0.5 * radius_m..SHADOW_HEIGHT * radius_m).contains(&z) {
-                let above_m = (z - radius_m).max(0.0);
-                let reach_m = SHADOW_REACH * radius_m + SHADOW_REACH_PER_M * above_m;
+            if let Some(reach_m) = shadow_reach_m(radius_m, z) {
                 // Pockets are never farther from the cushions than a little more than their radius.
                 let reaches_edge = facts.bed.x > 0.0
                     && (x.abs() + reach_m > facts.bed.x - POCKET_M

@@ -3,7 +3,7 @@
 use super::NoPicture;
 use super::hud;
 use super::painter::Painter;
-use super::stage::{BACKGROUND, Stage};
+use super::stage::Stage;
 use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{DrawList, Hud};
 use hapticbillard::table::Table;
@@ -197,15 +197,7 @@ impl Studio {
         self.target(size);
         let Some((colour, depth)) = &self.target else { return Ok(()) };
         let target = RenderTarget::new(colour.as_color_target(None), depth.as_depth_target());
-        let [r, g, b] = BACKGROUND;
-        let (painter, stage, gui) = (&self.painter, &mut self.stage, &self.gui);
-        target
-            .clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0))
-            .write::<CoreError>(|| {
-                painter.finish(ready, stage, list, settings, viewport);
-                gui.render()
-            })
-            .map_err(wrong)?;
-        Ok(())
+        let (stage, gui) = (&mut self.stage, &self.gui);
+        self.painter.finish(ready, stage, list, settings, &target, || gui.render()).map_err(wrong)
     }
 }

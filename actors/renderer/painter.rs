@@ -38,26 +38,33 @@ impl Sight {
             && self.smooth.is_some() == is_smooth
     }
 
-    fn draw(&self, draw: impl FnOnce()) -> Result<(), CoreError> {
-        let [r, g, b] = BACKGROUND;
-        let clear = ClearState::color_and_depth(r, g, b, 1.0, 1.0);
+    /// What `draw` draws, which may be all of it.
+    fn draw(&self, is_all: bool, draw: impl FnOnce()) -> Result<(), CoreError> {
         let draw = || {
             draw();
             Ok::<(), CoreError>(())
         };
         match &self.smooth {
             Some(smooth) => {
-                smooth.clear(clear).write(draw)?;
+                smooth.clear(cleared()).write(draw)?;
                 smooth.resolve_color_to(&self.colour.as_color_target(None));
             }
             None => {
                 let depth = self.depth.as_depth_target();
                 let target = RenderTarget::new(self.colour.as_color_target(None), depth);
-                target.clear(clear).write(draw)?;
+                if !is_all {
+                    target.clear(cleared());
+                }
+                target.write(draw)?;
             }
         }
         Ok(())
     }
+}
+
+fn cleared() -> ClearState {
+    let [r, g, b] = BACKGROUND;
+    ClearState::color_and_depth(r, g, b, 1.0, 1.0)
 }
 
 /// A picture that is ready to be put into a window.
@@ -124,7 +131,7 @@ impl Painter {
         let sight = Sight::new(&self.context, (64, 40), settings.smooth.is_on(self.is_software));
         let camera =
             stage.prepare(&list, &list.camera, settings, Viewport::new_at_origo(64, 40))?;
-        sight.draw(|| stage.draw(&list, settings, &camera))
+        sight.draw(false, || stage.draw(&list, settings, &camera))
     }
 
     /// Draws everything that needs pictures of its own, for a window of this size [pixels].
@@ -145,6 +152,7 @@ impl Painter {
         if both.is_none() && !is_smooth && drawn == size {
             self.sights.clear();
             let camera = stage.prepare(list, &list.camera, settings, viewport)?;
+            stage.rest(settings, &camera)?;
             return Ok(Ready::Direct(Box::new(camera)));
         }
         let poses = both.map_or_else(|| vec![list.camera], Vec::from);
@@ -155,13 +163,44 @@ impl Painter {
         }
         for (pose, sight) in poses.iter().zip(&self.sights) {
             let camera = stage.prepare(list, pose, settings, viewport)?;
-            sight.draw(|| stage.draw(list, settings, &camera))?;
+            if !is_smooth {
+                stage.rest(settings, &camera)?;
+            }
+            let is_all = stage.rests(settings, &camera);
+            sight.draw(is_all, || stage.draw(list, settings, &camera))?;
         }
         Ok(Ready::Drawn(poses.len()))
     }
 
-    /// Puts a picture into whatever is the target now.
+    /// Puts a picture into a target of this size, and what `write` writes over it.
+    ///
+    /// # Errors
+    /// The graphics card refuses.
     pub fn finish(
+        &self,
+        ready: Ready,
+        stage: &mut Stage,
+        list: &DrawList,
+        settings: &PictureSettings,
+        target: &RenderTarget,
+        write: impl FnOnce() -> Result<(), CoreError>,
+    ) -> Result<(), CoreError> {
+        // What every pixel of is drawn needs no ground.
+        let is_all = match &ready {
+            Ready::Direct(camera) => stage.rests(settings, camera),
+            Ready::Drawn(_) => true,
+        };
+        if !is_all {
+            target.clear(cleared());
+        }
+        target.write(|| {
+            self.put(ready, stage, list, settings, target.viewport());
+            write()
+        })?;
+        Ok(())
+    }
+
+    fn put(
         &self,
         ready: Ready,
         stage: &mut Stage,

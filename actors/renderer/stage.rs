@@ -7,14 +7,15 @@ use super::materials::{Facts, Finish, Shader, Told, program};
 use super::meshes::{ground, laid, marks, part_mesh, shape_mesh, square};
 use super::room::RoomPlace;
 use super::shadows::{DownEye, Maps, Volumes};
+use super::still::Stills;
 use super::textures;
 use hapticbillard::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose, TIP_RADIUS_M};
 use hapticbillard::input::CameraPose;
 use hapticbillard::mesh::Surface;
 use hapticbillard::picture::{PictureSettings, Shadows};
 use hapticbillard::renderer::{
-    DrawList, GhostBall, Line, Solid, SolidShape, StylusPose, cone, cue_shape, cylinder, sphere,
-    stylus_shape,
+    CUE_SHADOW_M, DrawList, GhostBall, Line, Solid, SolidShape, StylusPose, cone, cue_shape,
+    cylinder, sphere, stylus_shape,
 };
 use hapticbillard::table::{Material as Made, Table};
 use std::sync::Arc;
@@ -22,8 +23,6 @@ use three_d::*;
 
 /// How often the triangles of see-through balls are divided.
 const GHOST_LEVEL: u32 = 3;
-/// How far beside a cue its shadow can be [m].
-const CUE_SHADOW_M: f32 = 0.3;
 /// How far the shadow of a cue floats above the cloth [m].
 const CUE_SHADOW_LIFT_M: f32 = 0.0011;
 
@@ -76,6 +75,7 @@ pub struct Stage {
     maps: Option<Maps>,
     volumes: Option<Volumes>,
     room: RoomPlace,
+    stills: Stills,
 }
 
 impl Stage {
@@ -142,6 +142,7 @@ impl Stage {
             maps: None,
             volumes: None,
             room: RoomPlace::round(table.clone()),
+            stills: Stills::new(context)?,
             context: context.clone(),
         })
     }
@@ -197,8 +198,31 @@ impl Stage {
         Ok(camera)
     }
 
+    /// Draws what stands still once for all pictures that an eye sees where it rests now: for
+    /// targets of one sample per pixel. After [`Self::prepare`], and as that.
+    ///
+    /// # Errors
+    /// The graphics card gives no room.
+    pub fn rest(&mut self, settings: &PictureSettings, camera: &Camera) -> Result<(), CoreError> {
+        // Shadows of these kinds move on what stands still.
+        if matches!(settings.shadows, Shadows::Maps | Shadows::Volumes) {
+            return Ok(());
+        }
+        if let Some(still) = self.stills.see(settings, camera) {
+            still.write(|| self.standing(settings, camera, &|_| {}))?;
+            self.stills.keep(still);
+        }
+        Ok(())
+    }
+
+    /// Whether [`Self::draw`] has that for such a picture, and so draws every pixel of it.
+    pub fn rests(&self, settings: &PictureSettings, camera: &Camera) -> bool {
+        self.stills.has(settings, camera)
+    }
+
     /// Draws a picture that is prepared into whatever is the target now.
     pub fn draw(&mut self, list: &DrawList, settings: &PictureSettings, camera: &Camera) {
+        let is_kept = self.stills.put(list, settings, camera);
         if let Some(stylus) = &list.stylus {
             self.stylus(stylus, camera);
         }
@@ -214,6 +238,35 @@ impl Stage {
         if list.cue.is_some() {
             self.render(&self.cue, Shader::Painted, &|_| {}, camera);
         }
+        if !is_kept {
+            self.standing(settings, camera, &tell_shadows);
+        }
+        if shadows == Shadows::Soft {
+            let facts = Facts { bed: self.bed, room: self.room.light() };
+            self.balls.draw_contacts(list, camera, &facts, &self.pockets);
+            if let Some(cue) = &list.cue {
+                self.shade_cue(cue, camera);
+            }
+        }
+        for line in &list.lines {
+            self.line(line, camera);
+        }
+        for ghost in &list.ghosts {
+            self.ghost(ghost, camera);
+        }
+        for solid in &list.solids {
+            self.solid(solid, camera);
+        }
+    }
+
+    /// Draws what moves only if the eye does.
+    fn standing(
+        &self,
+        settings: &PictureSettings,
+        camera: &Camera,
+        tell_shadows: &dyn Fn(&Program),
+    ) {
+        let shadows = settings.shadows;
         let finish = Finish {
             // Soft shadows lie on the cloth and are not in it.
             shadows: if shadows == Shadows::Soft { 0 } else { shadow_number(shadows) },
@@ -235,32 +288,16 @@ impl Stage {
                     FLOOR => self.render(mesh, Shader::PlanFloor, &tell, camera),
                     // They are under what is seen from above.
                     APRON | POCKET => {
-                        let tell = self.told(*kind, &tell_shadows);
+                        let tell = self.told(*kind, tell_shadows);
                         self.render(mesh, Shader::Surface(*kind, finish), &tell, camera);
                     }
                     _ => self.render(mesh, Shader::Plan, &tell, camera),
                 }
             }
         } else {
-            self.parts(finish, camera, &tell_shadows);
+            self.parts(finish, camera, tell_shadows);
         }
         self.room.draw(self.bed, camera);
-        if shadows == Shadows::Soft {
-            let facts = Facts { bed: self.bed, room: self.room.light() };
-            self.balls.draw_contacts(list, camera, &facts, &self.pockets);
-            if let Some(cue) = &list.cue {
-                self.shade_cue(cue, camera);
-            }
-        }
-        for line in &list.lines {
-            self.line(line, camera);
-        }
-        for ghost in &list.ghosts {
-            self.ghost(ghost, camera);
-        }
-        for solid in &list.solids {
-            self.solid(solid, camera);
-        }
     }
 
     /// What all shaders know.

@@ -44,6 +44,8 @@ mod picture;
 mod pool_rules;
 /// Racks: order of the balls, gaps, spotting.
 mod rack;
+/// Where in a picture lies what moves.
+mod reach;
 /// What a picture shows.
 mod renderer;
 /// The report: closed forms, orders, who is best, what breaks.

@@ -2,6 +2,7 @@
 
 mod options;
 mod references;
+mod still;
 
 use glam::{DVec2, DVec3};
 use hapticbillard::events::{FactSet, IdeaKind, Insight, Prospect, Way, WayEnd};

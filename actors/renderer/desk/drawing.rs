@@ -147,12 +147,7 @@ impl Desk<'_> {
         let target = RenderTarget::screen(&self.graphics, size.width, size.height);
         let drawn =
             painter.prepare(stage, &list, &settings, (size.width, size.height)).and_then(|ready| {
-                let [r, g, b] = BACKGROUND;
-                target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
-                target.write::<CoreError>(|| {
-                    painter.finish(ready, stage, &list, &settings, viewport);
-                    gui.render()
-                })
+                painter.finish(ready, stage, &list, &settings, &target, || gui.render())
             });
         let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
         let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
