@@ -27,6 +27,8 @@ pub use stylus::{DeskStylus, StylusPort};
 
 mod wheel;
 
+mod gl_window;
+
 mod materials;
 
 mod menu;

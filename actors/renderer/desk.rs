@@ -4,6 +4,7 @@ mod aids;
 mod devices;
 mod drawing;
 
+use super::gl_window::{GlWindow, NotShown};
 use super::keys::{button, key, notches};
 use super::painter::Painter;
 use super::pointer::Pointer;
@@ -23,8 +24,9 @@ use hapticbillard::menu::{Begin, HapticChoice, Lobby, Order};
 use hapticbillard::picture::PictureSettings;
 use hapticbillard::renderer::{DrawList, Hud, MenuPanel, Words};
 use hapticbillard::rules::Language;
+use std::mem::{forget, replace};
 use std::time::{Duration, Instant};
-use three_d::{CoreError, GUI, WindowedContext};
+use three_d::{CoreError, GUI};
 use winit::event::{DeviceEvent, ElementState, Event, WindowEvent};
 use winit::event_loop::{ControlFlow, EventLoopProxy};
 use winit::window::{Fullscreen, Window};
@@ -45,8 +47,7 @@ fn no_stage(error: CoreError) -> Error {
 
 /// The window with all that is drawn into it.
 pub(super) struct Desk<'a> {
-    window: Window,
-    graphics: WindowedContext,
+    graphics: GlWindow,
     gui: GUI,
     painter: Painter,
     host: &'a mut dyn Host,
@@ -98,6 +99,8 @@ pub(super) struct Desk<'a> {
     /// The device that it is one of.
     haptic: Option<HapticChoice>,
     steering: Option<Steering>,
+    /// Last, since it outlives what is drawn into it.
+    window: Window,
 }
 
 impl<'a> Desk<'a> {
@@ -107,7 +110,7 @@ impl<'a> Desk<'a> {
     /// Why the game that shall begin at once cannot.
     pub fn new(
         window: Window,
-        graphics: WindowedContext,
+        graphics: GlWindow,
         setup: WindowSetup,
         host: &'a mut dyn Host,
         ended: EventLoopProxy<GameEnded>,
@@ -209,7 +212,21 @@ impl<'a> Desk<'a> {
                     self.change_stylus();
                 }
                 if self.due <= Instant::now() {
-                    let is_new = self.draw();
+                    let is_new = match self.draw() {
+                        Err(NotShown::Lost) => {
+                            if let Err(error) = self.renew() {
+                                self.failed = Some(error);
+                                flow.set_exit();
+                                return;
+                            }
+                            true
+                        }
+                        Err(error) => {
+                            tracing::warn!("the window shows nothing: {error}");
+                            true
+                        }
+                        Ok(is_new) => is_new,
+                    };
                     let period =
                         Duration::from_secs_f64(self.picture_settings().frame_limit.period_s());
                     let wait = if is_new { period } else { period.max(IDLE) };
@@ -409,6 +426,27 @@ impl<'a> Desk<'a> {
         Ok(())
     }
 
+    /// The graphics card lost everything: it gets it anew, and the game goes on.
+    ///
+    /// # Errors
+    /// It is gone altogether.
+    fn renew(&mut self) -> Result<(), Error> {
+        tracing::warn!("{}; it gets everything anew", NotShown::Lost);
+        self.graphics.renew().map_err(|error| RunError::Start(error.to_string()))?;
+        let graphics = &self.graphics;
+        // What is dropped now would take things of the new context away, by their numbers.
+        forget(replace(&mut self.gui, GUI::new(graphics)));
+        forget(replace(&mut self.painter, Painter::new(graphics).map_err(no_stage)?));
+        let backdrop = self.backdrop.as_mut().map(|(_, stage)| stage);
+        for stage in backdrop.into_iter().chain(self.game.as_mut().map(|game| &mut game.stage)) {
+            let anew = stage.anew(graphics).map_err(no_stage)?;
+            forget(replace(stage, anew));
+        }
+        self.shown = None;
+        self.warm_up();
+        Ok(())
+    }
+
     fn game_ended(&mut self, flow: &mut ControlFlow) {
         self.pointer.release(&self.window);
         let now_s = self.now_s();
@@ -444,7 +482,7 @@ impl<'a> Desk<'a> {
         self.shown = None;
         self.speak();
         let is_full = self.lobby.menu().is_some_and(|menu| menu.settings.full_screen);
-        if std::mem::replace(&mut self.is_full, is_full) != is_full {
+        if replace(&mut self.is_full, is_full) != is_full {
             self.window.set_fullscreen(is_full.then_some(Fullscreen::Borderless(None)));
         }
         self.apply();
@@ -453,7 +491,7 @@ impl<'a> Desk<'a> {
     /// Writes everything in the language that is set.
     fn speak(&mut self) {
         let language = self.language();
-        if std::mem::replace(&mut self.spoken, language) == language {
+        if replace(&mut self.spoken, language) == language {
             return;
         }
         self.write_anew();

@@ -35,6 +35,11 @@ impl RoomPlace {
         RoomPlace { table, made: None, is_shown: false }
     }
 
+    /// That table.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
     /// Whether this part of a table is drawn with the room.
     pub fn draws(part: &str) -> bool {
         matches!(part, "floor" | "apron" | "legs")

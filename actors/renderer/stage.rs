@@ -147,6 +147,14 @@ impl Stage {
         })
     }
 
+    /// The same table in another context.
+    ///
+    /// # Errors
+    /// Its compiler does not take a shader.
+    pub fn anew(&self, context: &Context) -> Result<Self, CoreError> {
+        Stage::new(context, self.room.table())
+    }
+
     /// Gets ready what a picture of this size needs, seen by an eye, in pictures of its own: no
     /// target may be written to meanwhile.
     ///

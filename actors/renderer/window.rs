@@ -2,6 +2,7 @@
 //! it on a thread of its own.
 
 use super::desk::Desk;
+use super::gl_window::GlWindow;
 use super::running::Prepared;
 use super::stylus::DeskStylus;
 use crate::conductor::RunError;
@@ -18,7 +19,6 @@ use hapticbillard::tick::Finished;
 use std::panic;
 use std::path::PathBuf;
 use std::sync::Arc;
-use three_d::{SurfaceSettings, WindowedContext};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::{EventLoop, EventLoopBuilder};
 use winit::platform::run_return::EventLoopExtRunReturn;
@@ -117,7 +117,8 @@ pub(super) struct GameEnded;
 /// game, where no menu could say it.
 pub fn show(setup: WindowSetup, host: &mut dyn Host) -> Result<Result<(), Error>, NoWindow> {
     let (mut events, window) = open(&setup)?;
-    let graphics = graphics(&window)?;
+    // Smooth edges are drawn beside it, so that they can be switched.
+    let graphics = GlWindow::new(&window)?;
     let mut desk = match Desk::new(window, graphics, setup, host, events.create_proxy()) {
         Ok(desk) => desk,
         Err(error) => return Ok(Err(error)),
@@ -144,11 +145,4 @@ fn open(setup: &WindowSetup) -> Result<(EventLoop<GameEnded>, Window), NoWindow>
         .build(&events)
         .map_err(|error| NoWindow(error.to_string()))?;
     Ok((events, window))
-}
-
-/// OpenGL in the window. Smooth edges are drawn beside it, so that they can be switched.
-pub(super) fn graphics(window: &Window) -> Result<WindowedContext, NoWindow> {
-    let plain = SurfaceSettings { vsync: false, multisamples: 0, ..SurfaceSettings::default() };
-    WindowedContext::from_winit_window(window, plain)
-        .map_err(|error| NoWindow(format!("no OpenGL: {error}")))
 }

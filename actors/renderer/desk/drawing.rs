@@ -1,6 +1,7 @@
 //! What a window shows: the next picture, and pictures that are kept.
 
 use super::super::encoded;
+use super::super::gl_window::NotShown;
 use super::super::hud;
 use super::super::stage::BACKGROUND;
 use super::Desk;
@@ -50,7 +51,7 @@ impl Desk<'_> {
         target.clear(ClearState::color_and_depth(r, g, b, 1.0, 1.0));
         // Nobody misses a bar; a window that shows nothing says so with the first picture.
         if target.write::<CoreError>(|| gui.render()).is_ok() {
-            let _ = self.graphics.swap_buffers();
+            let _ = self.graphics.show();
         }
         self.shown = None;
     }
@@ -101,7 +102,10 @@ impl Desk<'_> {
     }
 
     /// Draws the next picture, if it is another one. Whether it was.
-    pub(super) fn draw(&mut self) -> bool {
+    ///
+    /// # Errors
+    /// The window does not show it.
+    pub(super) fn draw(&mut self) -> Result<bool, NotShown> {
         let now_s = self.now_s();
         let mut begun = None;
         if let Some(game) = &mut self.game {
@@ -114,7 +118,7 @@ impl Desk<'_> {
                 }
             }
             self.look_after_aids();
-            let Some(game) = &mut self.game else { return false };
+            let Some(game) = &mut self.game else { return Ok(false) };
             let felt = game.shake.take();
             let wants = self.lobby.menu().is_none_or(|menu| menu.settings.rumble);
             if let (Some(rumble), Some(pads), true) = (felt, &self.pads, wants) {
@@ -122,14 +126,14 @@ impl Desk<'_> {
             }
         }
         self.hold_pointer();
-        let Some((list, mut written)) = self.seen() else { return false };
+        let Some((list, mut written)) = self.seen() else { return Ok(false) };
         self.said.take_if(|(_, until)| *until < Instant::now());
         written.message.extend(self.said.iter().map(|(said, _)| said.clone()));
         let size = self.window.inner_size();
         let is_same = self.shown.as_ref().is_some_and(|(a, b)| (a, b) == (&list, &written));
         if is_same || size.width == 0 || size.height == 0 {
             self.note_picture(None);
-            return false;
+            return Ok(false);
         }
         let settings = self.picture_settings();
         let viewport = Viewport::new_at_origo(size.width, size.height);
@@ -141,7 +145,7 @@ impl Desk<'_> {
         let stage = match (&mut self.game, &mut self.backdrop) {
             (Some(game), _) => &mut game.stage,
             (None, Some((_, stage))) => stage,
-            (None, None) => return false,
+            (None, None) => return Ok(false),
         };
         let (gui, painter) = (&self.gui, &mut self.painter);
         let target = RenderTarget::screen(&self.graphics, size.width, size.height);
@@ -151,18 +155,14 @@ impl Desk<'_> {
             });
         let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
         let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
-        match drawn.map(|_| self.graphics.swap_buffers()) {
-            Ok(Ok(())) => {
-                self.shown = Some((list, written));
-                self.note_picture(begun);
-            }
-            Ok(Err(error)) => tracing::warn!("the window shows nothing: {error}"),
-            Err(error) => tracing::warn!("the window shows nothing: {error}"),
-        }
+        drawn.map_err(|error| NotShown::Other(error.to_string()))?;
+        self.graphics.show()?;
+        self.shown = Some((list, written));
+        self.note_picture(begun);
         if let Some(rows) = picture {
             self.keep_picture(&rows, (size.width, size.height));
         }
-        true
+        Ok(true)
     }
 
     /// A picture is there, begun then, or another one was not needed.
