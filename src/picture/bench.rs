@@ -114,13 +114,17 @@ impl FrameTimes {
     }
 }
 
-/// The tables in Markdown: each row with its frames per second beside those of 2009.
+/// The tables in Markdown: each row with its frames per second beside those of 2009, for an eye that
+/// moves or rests.
 pub fn bench_markdown(
     measured: &[(BenchRow, FrameTimes)],
     device: &str,
     size: (u32, u32),
+    is_moving: bool,
 ) -> String {
-    let mut text = format!("Device: {device}; {} x {} pixels.\n", size.0, size.1);
+    let (width, height) = size;
+    let eye = if is_moving { "moves" } else { "rests" };
+    let mut text = format!("Device: {device}; {width} x {height} pixels; the eye {eye}.\n");
     let mut table = None;
     for (row, times) in measured {
         if table.replace(row.table) != Some(row.table) {

@@ -200,21 +200,25 @@ fn bench(b: &mut Builder) {
 
 /// A cushion over the length `a..c`, with the outline (depth, height) from front to back.
 fn cushion(b: &mut Builder, [a, c]: [f64; 2], outline: &[(f64, f64)]) {
-    // Drawn in a little at both ends.
-    let columns = [(a, 0.02), (a + 0.03, 0.0), (c - 0.03, 0.0), (c, 0.02)];
     let middle = outline.iter().fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1));
     let middle = (middle.0 / outline.len() as f64, middle.1 / outline.len() as f64);
-    let rows: Vec<Vec<DVec3>> = outline
-        .iter()
-        .map(|&(y, z)| {
-            let at = |&(x, drawn): &(f64, f64)| {
-                let share = drawn / 0.12;
-                DVec3::new(x, y + (middle.0 - y) * share, z + (middle.1 - z) * share)
-            };
-            columns.iter().map(at).collect()
-        })
-        .collect();
+    // A point of the outline, drawn in by this share.
+    let at = |x: f64, share: f64, (y, z): (f64, f64)| {
+        DVec3::new(x, y + (middle.0 - y) * share, z + (middle.1 - z) * share)
+    };
+    const DRAWN: f64 = 1.0 / 6.0;
+    let columns = [(a, DRAWN), (a + 0.03, 0.0), (c - 0.03, 0.0), (c, DRAWN)];
+    let row = |&p: &(f64, f64)| columns.iter().map(|&(x, share)| at(x, share, p)).collect();
+    let rows: Vec<Vec<DVec3>> = outline.iter().map(row).collect();
     b.grid(&rows, LEATHER, LAY);
+    // Its two ends.
+    let ring = || outline.iter().chain(outline.first());
+    let east: Vec<DVec3> = ring().map(|p| at(c, DRAWN, *p)).collect();
+    let west: Vec<DVec3> = ring().rev().map(|p| at(a, DRAWN, *p)).collect();
+    for end in [east, west] {
+        let centre = vec![DVec3::new(end[0].x, middle.0, middle.1); end.len()];
+        b.grid(&[centre, end], LEATHER, LAY);
+    }
 }
 
 /// Fifteen balls in their triangle, painted.

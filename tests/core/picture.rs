@@ -312,7 +312,7 @@ fn the_papers_tables_are_whole() {
     assert_eq!(names.len(), rows.len());
     let measured: Vec<_> =
         rows.iter().map(|row| (*row, FrameTimes { median: 20.0, p95: 25.0 })).collect();
-    let text = bench_markdown(&measured, "a card", (1440, 900));
+    let text = bench_markdown(&measured, "a card", (1440, 900), false);
     assert!(text.contains("| 5120 triangles, shadow volumes | 20.0 ms | 25.0 ms | 50 | 4 |"));
 }
 

@@ -8,13 +8,19 @@ use std::path::PathBuf;
 
 const EXAMPLE: &str = "\
 As in the paper: a shot that is the same every time, the whole table in the picture, neither limit
-nor smooth edges, and settings that touch the balls only; then the presets. Every row is measured in
+nor smooth edges, and settings that touch the balls only; then the presets. While the eye rests,
+table and room are drawn once; `--moving` measures what a moving eye costs. Every row is measured in
 turn, again and again, so that a busy machine is not busy for one of them alone. A picture counts
 from its begin until the graphics card has drawn it; it is not shown.
 
 Examples:
   hapticbillard bench-render --out bench.md
+  hapticbillard bench-render --moving --only medium
   hapticbillard bench-render --size 640x400 --rounds 5 --json";
+
+/// How far an eye that moves does so from picture to picture [m].
+#[cfg(feature = "renderer")]
+const MOVED_M: f64 = 1e-4;
 
 /// Measures how long pictures take with which settings: the paper's tables.
 #[derive(Debug, Clone, Args)]
@@ -41,6 +47,10 @@ pub struct BenchRenderArgs {
     /// Seconds of the game that the pictures are spread over.
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = not_negative)]
     pub seconds: f64,
+
+    /// The eye moves from picture to picture, so that nothing of the last one can be kept.
+    #[arg(long)]
+    pub moving: bool,
 
     /// Measures only rows whose name has this in it, as in `medium` or `volumes`.
     #[arg(long, value_name = "TEXT")]
@@ -87,15 +97,22 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
     let mut studio = Studio::new(&stage.table)?;
     let device = studio.card();
     let mut times = vec![Vec::new(); rows.len()];
+    let mut moved_m = 0.0;
     let bar = progress(u64::from(args.rounds) * rows.len() as u64, "measuring");
     for _ in 0..args.rounds {
         for (row, times) in rows.iter().zip(&mut times) {
             // Shaders, textures and targets are there before it counts.
-            for list in lists.iter().take(2) {
-                studio.timed(list, &row.settings, args.size)?;
-            }
-            for list in &lists {
-                times.push(studio.timed(list, &row.settings, args.size)?);
+            let both = lists.len().min(2);
+            for (number, place) in (0..both).chain(0..lists.len()).enumerate() {
+                let list = &mut lists[place];
+                if args.moving {
+                    moved_m += MOVED_M;
+                    list.camera.eye.x = HumanView::default().camera.eye.x + moved_m;
+                }
+                let time_s = studio.timed(list, &row.settings, args.size)?;
+                if both <= number {
+                    times.push(time_s);
+                }
             }
             bar.inc(1);
         }
@@ -106,7 +123,7 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
         .zip(&times)
         .filter_map(|(row, times)| Some((*row, FrameTimes::of(times)?)))
         .collect();
-    let text = bench_markdown(&measured, &device, args.size);
+    let text = bench_markdown(&measured, &device, args.size, args.moving);
     if let Some(path) = &args.out {
         write_whole(path, text.as_bytes())?;
     }
@@ -120,6 +137,7 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
             out,
             &serde_json::json!({
                 "shadows": settings.shadows,
+                "room": settings.room,
                 "triangles": settings.triangles,
                 "texture": settings.texture,
                 "environment": settings.environment != Environment::Off,
@@ -131,7 +149,11 @@ pub fn run(args: &BenchRenderArgs, out: &mut dyn Write) -> Result<Status, Error>
         )?;
     }
     let (width, height) = args.size;
-    let summary = serde_json::json!({ "device": device, "size": format!("{width}x{height}") });
+    let summary = serde_json::json!({
+        "device": device,
+        "size": format!("{width}x{height}"),
+        "moving": args.moving,
+    });
     json_line(out, &serde_json::json!({ "summary": summary }))?;
     Ok(Status::Success)
 }
