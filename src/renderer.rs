@@ -66,7 +66,7 @@ pub use meters::{MeterBoard, MetersPanel, QueueReading, QueueRow, Readings, Spre
 pub use mount::Mount;
 pub use overlay::{FeltPanel, Overlay, Punctuality};
 pub use playhead::{Playhead, between};
-pub use reach::{CUE_SHADOW_M, Patch, patches, shadow_reach_m};
+pub use reach::{Patch, cue_shadow, patches, shadow_reach_m};
 pub use scoreboard::{Refused, Scoreboard};
 pub use shape::{Shape, cone, cue_shape, cylinder, sphere, stylus_shape};
 pub use stereo::eyes;

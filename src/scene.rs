@@ -124,6 +124,8 @@ pub struct About {
 pub struct TableSection {
     /// Name of the parameters, such as `pool-9ft`.
     pub preset: String,
+    /// Walls and furniture of its room stop balls that leave it; else the floor is endless.
+    pub room: bool,
     /// Where it stands in the file.
     pub line: usize,
 }

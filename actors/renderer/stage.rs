@@ -14,7 +14,7 @@ use hapticbillard::input::CameraPose;
 use hapticbillard::mesh::Surface;
 use hapticbillard::picture::{PictureSettings, Shadows};
 use hapticbillard::renderer::{
-    CUE_SHADOW_M, DrawList, GhostBall, Line, Solid, SolidShape, StylusPose, cone, cue_shape,
+    DrawList, GhostBall, Line, Solid, SolidShape, StylusPose, cone, cue_shadow, cue_shape,
     cylinder, sphere, stylus_shape,
 };
 use hapticbillard::table::{Material as Made, Table};
@@ -58,7 +58,7 @@ pub struct Stage {
     cue: Mesh,
     cue_shadow: Program,
     square: Mesh,
-    square_corners: VertexBuffer<Vec3>,
+    cue_corners: VertexBuffer<Vec3>,
     stylus: Mesh,
     cylinder: Mesh,
     cone: Mesh,
@@ -115,9 +115,6 @@ impl Stage {
             || (vec2(0.0, 0.0), ([vec2(0.0, 0.0); 6], 0)),
             |parameters| marks(&parameters.cloth_marks()),
         );
-        let corners =
-            [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]]
-                .map(|[x, y]| vec3(x, y, 0.0));
         let (place, shade) =
             (include_str!("shaders/cue_shadow.vert"), include_str!("shaders/cue_shadow.frag"));
         Ok(Stage {
@@ -127,7 +124,7 @@ impl Stage {
             cue: Mesh::new(context, &shape_mesh(&cue_shape())),
             cue_shadow: program(context, place, &[], &[shade])?,
             square: Mesh::new(context, &square()),
-            square_corners: VertexBuffer::new_with_data(context, &corners),
+            cue_corners: VertexBuffer::new(context),
             stylus: Mesh::new(context, &shape_mesh(&stylus_shape())),
             cylinder: Mesh::new(context, &shape_mesh(&cylinder())),
             cone: Mesh::new(context, &shape_mesh(&cone())),
@@ -230,7 +227,7 @@ impl Stage {
 
     /// Draws a picture that is prepared into whatever is the target now.
     pub fn draw(&mut self, list: &DrawList, settings: &PictureSettings, camera: &Camera) {
-        let is_kept = self.stills.put(list, settings, camera);
+        let is_kept = self.stills.put(list, self.bed, settings, camera);
         if let Some(stylus) = &list.stylus {
             self.stylus(stylus, camera);
         }
@@ -384,23 +381,27 @@ impl Stage {
     }
 
     /// Darkens the cloth under a cue.
-    fn shade_cue(&self, cue: &CuePose, camera: &Camera) {
+    fn shade_cue(&mut self, cue: &CuePose, camera: &Camera) {
+        let area = cue_shadow(cue, glam::Vec2::new(self.bed.x, self.bed.y));
+        let on_cloth = |at: glam::Vec2| vec3(at.x, at.y, CUE_SHADOW_LIFT_M);
+        let corners: Vec<Vec3> = area
+            .windows(2)
+            .skip(1)
+            .flat_map(|pair| [area[0], pair[0], pair[1]].map(on_cloth))
+            .collect();
+        if corners.is_empty() {
+            return;
+        }
         let (tip, along) = (cue.tip.as_vec3(), cue.direction.as_vec3());
         let butt = tip - along * CUE_LENGTH_M as f32;
-        let middle = 0.5 * (tip + butt);
-        let ahead = 0.5 * (tip - butt).truncate();
-        let side = ahead.perp().normalize_or_zero() * CUE_SHADOW_M;
-        let ahead = ahead + ahead.normalize_or_zero() * CUE_SHADOW_M;
         let program = &self.cue_shadow;
+        self.cue_corners.fill(&corners);
         self.facts().tell(program, camera);
-        program.use_uniform("middle", vec3(middle.x, middle.y, CUE_SHADOW_LIFT_M));
-        program.use_uniform("along", vec2(ahead.x, ahead.y));
-        program.use_uniform("aside", vec2(side.x, side.y));
         program.use_uniform("tip", vec4(tip.x, tip.y, tip.z, TIP_RADIUS_M as f32));
         program.use_uniform("butt", vec4(butt.x, butt.y, butt.z, BUTT_RADIUS_M as f32));
         program.use_uniform_array("pockets", &self.pockets);
-        program.use_vertex_attribute("position", &self.square_corners);
-        program.draw_arrays(darkening(), camera.viewport(), self.square_corners.vertex_count());
+        program.use_vertex_attribute("position", &self.cue_corners);
+        program.draw_arrays(darkening(), camera.viewport(), self.cue_corners.vertex_count());
     }
 
     fn stylus(&mut self, stylus: &StylusPose, camera: &Camera) {

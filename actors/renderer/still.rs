@@ -122,8 +122,14 @@ impl Stills {
     }
 
     /// Puts what stands still into the target, if it was kept; whether it was. How far it is away
-    /// is there only where something else of the list may be.
-    pub fn put(&mut self, list: &DrawList, settings: &PictureSettings, camera: &Camera) -> bool {
+    /// is there only where something else of the list may be. `bed` is half of it [m].
+    pub fn put(
+        &mut self,
+        list: &DrawList,
+        bed: Vec2,
+        settings: &PictureSettings,
+        camera: &Camera,
+    ) -> bool {
         let sort = Sort::of(settings, camera);
         let Some(still) = self.kept.iter().find(|still| still.sort == sort) else { return false };
         let states = |write_mask| RenderStates {
@@ -142,7 +148,12 @@ impl Stills {
             sort.viewport,
             self.corners.vertex_count(),
         );
-        self.corners.fill(&corners(&patches(list, matrix, (width, height))));
+        self.corners.fill(&corners(&patches(
+            list,
+            glam::Vec2::new(bed.x, bed.y),
+            matrix,
+            (width, height),
+        )));
         if 0 < self.corners.vertex_count() {
             self.depth.use_depth_texture("depths", &still.depths);
             self.depth.use_vertex_attribute("corner", &self.corners);

@@ -114,8 +114,8 @@ impl FrameTimes {
     }
 }
 
-/// The tables in Markdown: each row with its frames per second beside those of 2009, for an eye that
-/// moves or rests.
+/// The tables in Markdown: each row with its frames per second beside those of 2009, for an eye
+/// that moves or rests.
 pub fn bench_markdown(
     measured: &[(BenchRow, FrameTimes)],
     device: &str,

@@ -1,7 +1,7 @@
 //! Where in a picture lies what moves, with its shadows: the rest of the picture is as it was.
 
 use super::draw_list::DrawList;
-use crate::cue::{BUTT_RADIUS_M, CUE_LENGTH_M};
+use crate::cue::{BUTT_RADIUS_M, CUE_LENGTH_M, CuePose};
 use glam::{Mat4, Vec2, Vec3};
 
 /// Half the side of the square that a ball darkens, in radii.
@@ -11,7 +11,7 @@ const SHADOW_REACH_PER_M: f32 = 2.0;
 /// A ball that is higher throws no shadow that is worth drawing [radii].
 const SHADOW_HEIGHT: f32 = 12.0;
 /// How far beside a cue its shadow can be [m].
-pub const CUE_SHADOW_M: f32 = 0.3;
+const CUE_SHADOW_M: f32 = 0.3;
 /// Length and half width of a stylus that is drawn as large as it is [m].
 const STYLUS_M: (f32, f32) = (0.112, 0.0042);
 /// What is longer is looked at in pieces [m]: a box round all of it would hold much else.
@@ -47,12 +47,53 @@ pub fn shadow_reach_m(radius_m: f32, height_m: f32) -> Option<f32> {
     throws_one.then_some(SHADOW_REACH * radius_m + SHADOW_REACH_PER_M * above_m)
 }
 
+/// The part of the cloth that a cue can darken, anticlockwise seen from above; `half_bed` is half
+/// its length and width [m], zero without a table.
+pub fn cue_shadow(cue: &CuePose, half_bed: Vec2) -> Vec<Vec2> {
+    let (tip, along) = (cue.tip.as_vec3().truncate(), cue.direction.as_vec3().truncate());
+    let butt = tip - along * CUE_LENGTH_M as f32;
+    let ahead = along.normalize_or_zero() * CUE_SHADOW_M;
+    let (from, to, aside) = (butt - ahead, tip + ahead, ahead.perp());
+    let mut area = vec![from - aside, to - aside, to + aside, from + aside];
+    if half_bed.x > 0.0 {
+        for (normal, reach) in [
+            (Vec2::X, half_bed.x),
+            (Vec2::NEG_X, half_bed.x),
+            (Vec2::Y, half_bed.y),
+            (Vec2::NEG_Y, half_bed.y),
+        ] {
+            area = on_this_side(&area, normal, reach);
+        }
+    }
+    area
+}
+
+/// What is left of a convex area on one side of a line (Sutherland and Hodgman 1974).
+fn on_this_side(area: &[Vec2], normal: Vec2, reach: f32) -> Vec<Vec2> {
+    let mut left = Vec::with_capacity(area.len() + 1);
+    for (a, b) in area.iter().zip(area.iter().cycle().skip(1)) {
+        let [inside_a, inside_b] = [a, b].map(|at| reach - at.dot(normal));
+        if inside_a >= 0.0 {
+            left.push(*a);
+        }
+        if (inside_a >= 0.0) != (inside_b >= 0.0) {
+            left.push(a.lerp(*b, inside_a / (inside_a - inside_b)));
+        }
+    }
+    left
+}
+
 /// Patches that together hold everything of a list that the eye of this matrix sees, in a picture
-/// of this size [pixels]; none lies on another.
-pub fn patches(list: &DrawList, view_projection: Mat4, size: (u32, u32)) -> Vec<Patch> {
+/// of this size [pixels]; none lies on another. `half_bed` is as for [`cue_shadow`].
+pub fn patches(
+    list: &DrawList,
+    half_bed: Vec2,
+    view_projection: Mat4,
+    size: (u32, u32),
+) -> Vec<Patch> {
     let margin = 2.0 * MARGIN / Vec2::new(size.0.max(1) as f32, size.1.max(1) as f32);
     let mut is_touched = [[false; TILES[0]]; TILES[1]];
-    for (least, most) in boxes(list) {
+    for (least, most) in boxes(list, half_bed) {
         let patch = match seen(least, most, view_projection, margin) {
             Seen::Nothing => continue,
             Seen::Somewhere => return vec![Patch::WHOLE],
@@ -87,7 +128,7 @@ fn runs(row: &[bool], up: usize) -> Vec<Patch> {
 }
 
 /// Boxes round everything, by their least and greatest corners [m].
-fn boxes(list: &DrawList) -> Vec<(Vec3, Vec3)> {
+fn boxes(list: &DrawList, half_bed: Vec2) -> Vec<(Vec3, Vec3)> {
     let mut boxes = Vec::new();
     let balls = list.balls.iter().map(|ball| (ball.position, ball.radius_m));
     let ghosts = list.ghosts.iter().map(|ghost| (ghost.position, ghost.radius_m));
@@ -101,11 +142,13 @@ fn boxes(list: &DrawList) -> Vec<(Vec3, Vec3)> {
     }
     if let Some(cue) = &list.cue {
         let (tip, along) = (cue.tip.as_vec3(), cue.direction.as_vec3());
-        let shadow = along * CUE_SHADOW_M;
-        let (from, to) = (tip + shadow, tip - along * CUE_LENGTH_M as f32 - shadow);
-        for (least, most) in rod(from, to, CUE_SHADOW_M + BUTT_RADIUS_M as f32) {
-            boxes.push((least.min(least.with_z(0.0)), most.max(most.with_z(0.0))));
-        }
+        let butt = tip - along * CUE_LENGTH_M as f32;
+        boxes.extend(rod(tip, butt, BUTT_RADIUS_M as f32));
+        let area = cue_shadow(cue, half_bed);
+        let on_cloth = |at: Vec2| at.extend(0.0);
+        boxes.extend(
+            pieces(&area).map(|(least, most)| (on_cloth(least) - LIFT_M, on_cloth(most) + LIFT_M)),
+        );
     }
     for line in &list.lines {
         boxes.extend(rod(line.from.into(), line.to.into(), line.half_width_m));
@@ -119,6 +162,21 @@ fn boxes(list: &DrawList) -> Vec<(Vec3, Vec3)> {
         boxes.extend(rod(tip, tip - Vec3::from(stylus.direction) * length, width));
     }
     boxes
+}
+
+/// Boxes round the pieces of a convex area, cut across where it is long.
+fn pieces(area: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let least = area.iter().fold(Vec2::MAX, |a, b| a.min(*b));
+    let most = area.iter().fold(Vec2::MIN, |a, b| a.max(*b));
+    let side = (most - least).max(Vec2::ZERO);
+    let axis = if side.x < side.y { Vec2::Y } else { Vec2::X };
+    let count = (side.max_element() / PIECE_M).ceil().clamp(0.0, 64.0) as u32;
+    (0..count).filter_map(move |piece| {
+        let at = |piece: u32| least.dot(axis) + side.max_element() * piece as f32 / count as f32;
+        let piece = on_this_side(&on_this_side(area, axis, at(piece + 1)), -axis, -at(piece));
+        let least = piece.iter().copied().reduce(Vec2::min)?;
+        Some((least, piece.iter().copied().reduce(Vec2::max)?))
+    })
 }
 
 /// Boxes round the pieces of a rod with round ends.

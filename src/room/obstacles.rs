@@ -73,19 +73,12 @@ impl Room {
         DVec3::new(x, y, z)
     }
 
-    /// A coarse body for balls that leave the table: floor, walls, vault, furniture; faces look
-    /// into the room.
+    /// A coarse body for balls that leave the table: walls, vault, furniture; faces look into the
+    /// room. The floor is the table's own.
     pub fn collision(&self) -> Mesh {
         let mut mesh = Mesh::default();
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z + self.floor_m);
         let side = WIDE_M - PANEL_DEPTH_M;
-        let floor = [
-            at(WEST_M, -side, 0.0),
-            at(EAST_M, -side, 0.0),
-            at(EAST_M, side, 0.0),
-            at(WEST_M, side, 0.0),
-        ];
-        face(&mut mesh, floor, Surface::Floor);
         let outline: Vec<(f64, f64)> = core::iter::once((-side, 0.0))
             .chain((0..=8).map(|k| {
                 let y = side * (f64::from(k) / 4.0 - 1.0);

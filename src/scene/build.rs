@@ -7,6 +7,7 @@ use crate::ids::GameKind;
 use crate::mesh::{Face, Mesh, parse_obj};
 use crate::physics::{Equipment, Parameters, Racks};
 use crate::rack::{Rack, Spots};
+use crate::room::Room;
 use crate::table::Table;
 use glam::{DQuat, DVec3};
 
@@ -32,6 +33,11 @@ impl Scene {
             Equipment::Snooker => Spots::Snooker,
             Equipment::Carom => Spots::Carom,
         };
+        if self.table.as_ref().is_some_and(|section| section.room)
+            && let Some(room) = Room::around(&table)
+        {
+            table.mesh.append(&room.collision());
+        }
         table.planes.extend_from_slice(&self.planes);
         for section in &self.boxes {
             table.mesh.append(&box_mesh(section));

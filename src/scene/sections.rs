@@ -208,13 +208,14 @@ fn physics(root: &Section<'_>) -> Result<PhysicsSettings, SceneError> {
 }
 
 fn table_section(section: &Section<'_>) -> Result<TableSection, SceneError> {
-    section.allow(&["preset"])?;
+    section.allow(&["preset", "room"])?;
+    let room = section.switch("room")?.unwrap_or(false);
     let names: Vec<([&'static str; 1], &'static str)> =
         crate::shipped::TABLES.iter().map(|(name, _)| ([*name], *name)).collect();
     let choices: Vec<(&[&'static str], &'static str)> =
         names.iter().map(|(names, name)| (&names[..], *name)).collect();
     match section.choice("preset", &choices)? {
-        Some(preset) => Ok(TableSection { preset: preset.to_string(), line: section.line() }),
+        Some(preset) => Ok(TableSection { preset: preset.to_string(), room, line: section.line() }),
         None => Err(section.missing(
             "preset",
             "a table needs a preset",

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Pictures a second in a window while a game is played, beside other billiards games on the same
-# machine, in turn, each three times: PROGRAM [SECONDS]. All draw 1440 x 900 pixels on the processor.
+# machine, in turn: PROGRAM [SECONDS [ROUNDS]]. All draw 1440 x 900 pixels on the processor.
 #
 # apt-get install billard-gl foobillardplus xvfb xdotool libgl1-mesa-dri
 #
@@ -12,6 +12,7 @@
 set -eu
 program=$(realpath "$1")
 seconds=${2:-30}
+rounds=${3:-3}
 here=$(dirname "$(realpath "$0")")
 folder=$(mktemp -d)
 export DISPLAY=:83 HOME="$folder" USER=player LOGNAME=player SDL_AUDIODRIVER=dummy LC_ALL=C
@@ -29,7 +30,7 @@ watch() {
   export GALLIUM_HUD_DUMP_DIR="$folder/$name"
   rm -rf "$GALLIUM_HUD_DUMP_DIR"
   mkdir -p "$GALLIUM_HUD_DUMP_DIR"
-  (cd "$folder" && exec timeout $((seconds + 15)) "$@" >/dev/null 2>&1) &
+  (cd "$folder" && exec timeout -k 3 $((seconds + 15)) "$@" >/dev/null 2>&1) &
   game=$!
   $play
   wait $game || true
@@ -84,7 +85,7 @@ settings() {
 }
 
 printf '1\n1\n1\n11\n0.400000\n0\n0\n640\n16\n0\n1\n3\n901\n0\n1\n2\n0\n0.500000\n0.500000\nName%%1\nName%%2\nName\n' >"$folder/.BillardGL.conf.v7"
-for _ in 1 2 3; do
+for _ in $(seq "$rounds"); do
   watch billardgl billardgl /usr/games/billard-gl -windowed -t 1 -tt 1 -at 1 -g 11
   settings low
   watch low nothing "$program" play --scene "$here/duel.toml" --no-record

@@ -6,13 +6,14 @@ use hapticbillard::ids::BallId;
 use hapticbillard::input::{CameraPose, HumanView};
 use hapticbillard::physics::Snapshot;
 use hapticbillard::renderer::{
-    BallInstance, DrawList, Line, Patch, Radii, ball_look, patches, shadow_reach_m,
+    BallInstance, DrawList, Line, Patch, Radii, ball_look, cue_shadow, patches, shadow_reach_m,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 const SIZE: (u32, u32) = (640, 400);
 const RADIUS_M: f32 = 0.0286;
+const BED: Vec2 = Vec2::new(1.27, 0.635);
 
 fn nothing() -> DrawList {
     DrawList::new(&Snapshot::default(), &HumanView::default(), &Radii::default())
@@ -95,10 +96,11 @@ fn whatever_moves_lies_in_a_patch() {
             half_width_m: 0.002,
             colour: [1.0; 4],
         });
-        let patches = patches(&list, matrix, SIZE);
+        let patches = patches(&list, BED, matrix, SIZE);
         let area = share(&patches);
         assert!(area <= 1.0001, "patches lie on each other: {area}");
         small += i32::from(area < 0.5);
+        let dark = cue_shadow(list.cue.as_ref().unwrap(), BED);
         let reach = shadow_reach_m(RADIUS_M, middle.z).unwrap();
         for _ in 0..20 {
             let way = any(Vec3::NEG_ONE, Vec3::ONE).normalize_or_zero();
@@ -106,6 +108,16 @@ fn whatever_moves_lies_in_a_patch() {
             let cloth =
                 (middle.truncate() + any(Vec3::NEG_ONE, Vec3::ONE).truncate() * reach).extend(0.0);
             let shaft = (tip - direction * CUE_LENGTH_M * f64::from(along)).as_vec3();
+            // Somewhere in the area that the cue can darken.
+            let shares: Vec<f32> = dark.iter().map(|_| any(Vec3::ZERO, Vec3::ONE).x).collect();
+            let sum: f32 = shares.iter().sum();
+            let under = dark.iter().zip(&shares).map(|(at, share)| *at * *share / sum);
+            if !dark.is_empty() {
+                let at = under.sum::<Vec2>().extend(0.0);
+                if let Some(place) = place(matrix, at) {
+                    assert!(holds(&patches, place), "{at} at {place}, eye {eye}");
+                }
+            }
             for at in [middle + way * RADIUS_M, cloth, shaft, from.lerp(to, along)] {
                 if let Some(place) = place(matrix, at) {
                     seen += 1;
@@ -120,14 +132,14 @@ fn whatever_moves_lies_in_a_patch() {
 #[test]
 fn where_nothing_moves_there_is_no_patch() {
     let camera = CameraPose::default();
-    assert_eq!(patches(&nothing(), matrix(&camera), SIZE), []);
+    assert_eq!(patches(&nothing(), BED, matrix(&camera), SIZE), []);
     let mut list = nothing();
     // Far behind the eye.
     list.balls.push(ball(camera.eye.as_vec3() * 3.0));
-    assert_eq!(patches(&list, matrix(&camera), SIZE), []);
+    assert_eq!(patches(&list, BED, matrix(&camera), SIZE), []);
     // A lonely ball takes little.
     list.balls = vec![ball(Vec3::new(0.0, 0.0, RADIUS_M))];
-    let found = patches(&list, matrix(&camera), SIZE);
+    let found = patches(&list, BED, matrix(&camera), SIZE);
     assert!((0.0001..0.06).contains(&share(&found)), "{}", share(&found));
 }
 
@@ -137,7 +149,32 @@ fn what_reaches_up_to_the_eye_may_be_anywhere() {
     let mut list = nothing();
     let ahead = (camera.target - camera.eye).normalize() * 0.06;
     list.balls.push(ball((camera.eye + ahead).as_vec3()));
-    assert_eq!(patches(&list, matrix(&camera), SIZE), [Patch::WHOLE]);
+    assert_eq!(patches(&list, BED, matrix(&camera), SIZE), [Patch::WHOLE]);
     list.balls = vec![ball(Vec3::NAN)];
-    assert_eq!(patches(&list, matrix(&camera), SIZE), [Patch::WHOLE]);
+    assert_eq!(patches(&list, BED, matrix(&camera), SIZE), [Patch::WHOLE]);
+}
+
+#[test]
+fn a_cue_darkens_no_more_than_the_bed() {
+    let mut cue = CuePose {
+        tip: DVec3::new(0.0, 0.0, 0.05),
+        velocity: DVec3::ZERO,
+        direction: DVec3::X,
+        solid: false,
+    };
+    // 0.3 m beside it and before it; behind it the bed ends.
+    let area = cue_shadow(&cue, BED);
+    let [least, most] = [Vec2::min, Vec2::max].map(|of| area.iter().copied().reduce(of).unwrap());
+    assert!(least.distance(Vec2::new(-1.27, -0.3)) < 1e-5, "{least}");
+    assert!(most.distance(Vec2::new(0.3, 0.3)) < 1e-5, "{most}");
+    // Without a table it is as long as the cue.
+    let area = cue_shadow(&cue, Vec2::ZERO);
+    assert!((area.iter().map(|at| at.x).fold(0.0, f32::min) + 1.77).abs() < 1e-5);
+    // Outside; upright; nowhere.
+    cue.tip.y = 2.0;
+    assert_eq!(cue_shadow(&cue, BED), []);
+    cue.direction = DVec3::NEG_Z;
+    assert!(cue_shadow(&cue, BED).len() < 3);
+    cue.tip = DVec3::NAN;
+    cue_shadow(&cue, BED);
 }

@@ -3,10 +3,13 @@
 mod light;
 
 use glam::{DVec2, DVec3, Vec3};
+use hapticbillard::ids::BallId;
 use hapticbillard::input::CameraPose;
+use hapticbillard::physics::Simulation;
 use hapticbillard::room::{
     EAST_M, Group, LIGHT_WIDTH, LightMap, LightMapError, Room, WEST_M, WIDE_M, lamp_opacity,
 };
+use hapticbillard::scene::Scene;
 use hapticbillard::shipped;
 use hapticbillard::table::Table;
 
@@ -178,4 +181,47 @@ fn unbaked_light_is_brightest_under_the_lamp() {
         Vec3::from(map.light(place.x as u32, place.y as u32)).element_sum()
     };
     assert!(at(1.2, 0.5) < at(0.0, 0.0) && at(-1.2, 0.0) < at(0.0, 0.0));
+}
+
+/// A ball that is thrown from over the table, in a room or not; none if it did not leave it.
+fn thrown(with_room: bool, way: DVec3) -> Vec<DVec3> {
+    let [x, y, z] = way.to_array();
+    let text = format!(
+        "[scene]\nname = \"thrown\"\n[physics]\n[table]\npreset = \"pool-9ft\"\nroom = {with_room}\n\
+         [[ball]]\nid = 0\nposition_m = [0.0, 0.0, 0.4]\nvelocity_m_s = [{x}, {y}, {z}]\n"
+    );
+    let scene = Scene::parse("thrown", &text).unwrap();
+    let table = scene.build_table(&mut |_| Err(String::new())).unwrap();
+    let balls = scene.build_balls(&table).unwrap();
+    let parameters = scene.parameters();
+    let start = Simulation::with_parameters(&table, balls, &scene.physics, parameters).unwrap();
+    let shot = start.run_until_rest().unwrap();
+    shot.trajectory(BallId::CUE).every(0.002).map(|state| state.position).collect()
+}
+
+#[test]
+fn a_ball_that_leaves_the_table_stays_in_the_room() {
+    let room = room("pool-9ft");
+    let radius = 0.5 * 0.057_15;
+    let floor = -Table::preset("pool-9ft").unwrap().parameters.unwrap().bed_height_m;
+    let (mut off, mut stopped) = (0, 0);
+    for k in 0..24 {
+        let way = DVec2::from_angle(f64::from(k) * 0.2618 + 0.05) * (6.0 + 0.3 * f64::from(k));
+        let way = way.extend(1.5);
+        let [inside, endless] = [true, false].map(|with_room| thrown(with_room, way));
+        for at in &inside {
+            let walls = at.x < WEST_M || EAST_M < at.x || WIDE_M < at.y.abs();
+            assert!(!walls, "{way}: at {at}");
+            let deepest = room.obstacles.iter().map(|obstacle| {
+                let away = at.distance(at.clamp(obstacle.least, obstacle.most));
+                radius - away
+            });
+            let deepest = deepest.fold(0.0, f64::max);
+            assert!(deepest < 1e-6, "{way}: {deepest} m in something at {at}");
+        }
+        let [end, far] = [&inside, &endless].map(|way| *way.last().unwrap());
+        off += i32::from(end.z < floor + 2.0 * radius);
+        stopped += i32::from(0.2 < end.distance(far));
+    }
+    assert!(off > 20 && stopped > 15, "{off} left the table, {stopped} were stopped");
 }

@@ -213,7 +213,7 @@ fn whatever_is_wrong_is_said_in_one_exact_line() {
     );
     after_head(
         "[table]\npreset = \"pool-9ft\"\nlength_m = 3\n",
-        "6: table.length_m = 3: table has the keys preset; remove this key",
+        "6: table.length_m = 3: table has the keys preset, room; remove this key",
     );
     after_head(
         "[[ball]]\nposition_m = [0, 0]\n",

@@ -12,7 +12,7 @@ const LAYERS: [&[&str]; 18] = [
         "noise", "quantile",
     ],
     &["table", "rack"],
-    // What stands round a table, and the light in it; nothing of it is in a game without pictures.
+    // What stands round a table, and the light in it.
     &["room"],
     &["physics"],
     // A scene holds the settings of the physics that it asks for.

@@ -48,7 +48,9 @@ float left_of(vec3 at, vec3 n) {
 vec3 falling(vec3 at, vec3 n, float open) {
 #if ROOM == 1 && KIND == 0
     vec3 above = baked(bed_light.xy + at.xy * bed_light.zw);
-    return above * (smoothstep(-0.03, -0.001, at.z) * left_of(at, n));
+    // Under the noses it is darker than texels so large can tell.
+    float near = mix(0.68, 1.0, smoothstep(-0.012, 0.05, min(bed.x - abs(at.x), bed.y - abs(at.y))));
+    return above * (near * smoothstep(-0.03, -0.001, at.z) * left_of(at, n));
 #elif ROOM == 1 && KIND == 1
     // The map is seen from above; noses face the lamp.
     vec3 above = baked(rail_light.xy + at.xy * rail_light.zw);
