@@ -188,7 +188,8 @@ fn thrown(with_room: bool, way: DVec3) -> Vec<DVec3> {
     let [x, y, z] = way.to_array();
     let text = format!(
         "[scene]\nname = \"thrown\"\n[physics]\n[table]\npreset = \"pool-9ft\"\n\
-         room = {with_room}\n[[ball]]\nid = 0\nposition_m = [0.0, 0.0, 0.4]\nvelocity_m_s = [{x}, {y}, {z}]\n"
+         room = {with_room}\n[[ball]]\nid = 0\nposition_m = [0.0, 0.0, 0.4]\n\
+         velocity_m_s = [{x}, {y}, {z}]\n"
     );
     let scene = Scene::parse("thrown", &text).unwrap();
     let table = scene.build_table(&mut |_| Err(String::new())).unwrap();
