@@ -40,6 +40,11 @@ const SAID_LONG: Duration = Duration::from_secs(20);
 /// What was set is written when nothing more was set for so long: a scale is pulled in many steps.
 const KEEP_AFTER: Duration = Duration::from_millis(700);
 
+/// So often everything may be lost before a picture is shown.
+const LOSSES: u32 = 5;
+/// How long a card is left alone that loses everything again.
+const LOSS_PAUSE: Duration = Duration::from_millis(500);
+
 /// Why nothing can be drawn.
 fn no_stage(error: CoreError) -> Error {
     RunError::Start(format!("OpenGL: {error}")).into()
@@ -47,7 +52,6 @@ fn no_stage(error: CoreError) -> Error {
 
 /// The window with all that is drawn into it.
 pub(super) struct Desk<'a> {
-    graphics: GlWindow,
     gui: GUI,
     painter: Painter,
     host: &'a mut dyn Host,
@@ -99,6 +103,10 @@ pub(super) struct Desk<'a> {
     /// The device that it is one of.
     haptic: Option<HapticChoice>,
     steering: Option<Steering>,
+    /// How often everything was lost since the last picture that was shown.
+    losses: u32,
+    /// After what the card holds, which goes while there is still a context.
+    graphics: GlWindow,
     /// Last, since it outlives what is drawn into it.
     window: Window,
 }
@@ -117,10 +125,11 @@ impl<'a> Desk<'a> {
     ) -> Result<Self, Error> {
         let now = Instant::now();
         let gui = GUI::new(&graphics);
+        let painter = Painter::new(&graphics).map_err(no_stage)?;
         let mut desk = Desk {
             window,
             gui,
-            painter: Painter::new(&graphics).map_err(no_stage)?,
+            painter,
             host,
             ended,
             stop: setup.stop,
@@ -153,6 +162,7 @@ impl<'a> Desk<'a> {
             is_by_stylus: false,
             haptic: None,
             steering: None,
+            losses: 0,
             graphics,
         };
         desk.speak();
@@ -431,8 +441,20 @@ impl<'a> Desk<'a> {
     /// # Errors
     /// It is gone altogether.
     fn renew(&mut self) -> Result<(), Error> {
+        self.losses += 1;
+        if LOSSES < self.losses {
+            return Err(RunError::Start(format!("{}, again and again", NotShown::Lost)).into());
+        }
         tracing::warn!("{}; it gets everything anew", NotShown::Lost);
-        self.graphics.renew().map_err(|error| RunError::Start(error.to_string()))?;
+        // A card that comes back takes a while.
+        if 1 < self.losses {
+            std::thread::sleep(LOSS_PAUSE);
+        }
+        if let Err(error) = self.graphics.renew() {
+            // It stays lost, and is asked again.
+            tracing::warn!("{error}");
+            return Ok(());
+        }
         let graphics = &self.graphics;
         // What is dropped now would take things of the new context away, by their numbers.
         forget(replace(&mut self.gui, GUI::new(graphics)));

@@ -10,15 +10,20 @@ use glutin::error::ErrorKind;
 use glutin::prelude::*;
 use glutin::surface::{Surface, SurfaceAttributesBuilder, SwapInterval, WindowSurface};
 use raw_window_handle::{HasRawDisplayHandle, HasRawWindowHandle, RawWindowHandle};
+use std::cell::Cell;
 use std::ffi::CString;
 use std::num::NonZeroU32;
 use std::sync::Arc;
 use three_d::Context;
+use three_d::context::HasContext;
 use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 /// Bits of what tells how far something is away.
 const DEPTH_BITS: u8 = 24;
+
+/// Lower addresses are what some drivers say in place of none.
+const FIRST_ADDRESS: usize = 4096;
 
 /// glGetGraphicsResetStatus.
 type ResetStatus = unsafe extern "system" fn() -> u32;
@@ -38,6 +43,8 @@ pub enum NotShown {
 pub struct GlWindow {
     context: Context,
     reset_status: Option<ResetStatus>,
+    /// It was lost: the card tells so only once.
+    is_lost: Cell<bool>,
     current: PossiblyCurrentContext,
     surface: Surface<WindowSurface>,
     config: Config,
@@ -61,12 +68,24 @@ impl GlWindow {
     ///
     /// # Errors
     /// [`NoWindow`] if this machine has none.
-    #[allow(unsafe_code)]
     pub fn new(window: &Window) -> Result<Self, NoWindow> {
+        let handle = window.raw_window_handle();
+        let mut failed = None;
+        for preference in preferences(handle) {
+            match Self::by(window, preference) {
+                Ok(made) => return Ok(made),
+                Err(error) => failed = failed.or(Some(error)),
+            }
+        }
+        Err(failed.unwrap_or_else(|| NoWindow("no OpenGL".into())))
+    }
+
+    #[allow(unsafe_code)]
+    fn by(window: &Window, preference: DisplayApiPreference) -> Result<Self, NoWindow> {
         let handle = window.raw_window_handle();
         // SAFETY: the handles are those of a window that outlives the display: the desk holds both,
         // and drops this first.
-        let display = unsafe { Display::new(window.raw_display_handle(), preference(handle)) };
+        let display = unsafe { Display::new(window.raw_display_handle(), preference) };
         let display = display.map_err(failed)?;
         let wanted = ConfigTemplateBuilder::new()
             .prefer_hardware_accelerated(None)
@@ -83,7 +102,8 @@ impl GlWindow {
         let surface =
             unsafe { display.create_window_surface(&config, &attributes) }.map_err(failed)?;
         let (current, context, reset_status) = begin(&config, &surface, handle)?;
-        Ok(GlWindow { context, reset_status, current, surface, config, handle })
+        let is_lost = Cell::new(false);
+        Ok(GlWindow { context, reset_status, is_lost, current, surface, config, handle })
     }
 
     /// Begins anew in the same window after everything was lost: nothing of what was made before
@@ -94,6 +114,7 @@ impl GlWindow {
     pub fn renew(&mut self) -> Result<(), NoWindow> {
         let (current, context, reset_status) = begin(&self.config, &self.surface, self.handle)?;
         (self.current, self.context, self.reset_status) = (current, context, reset_status);
+        self.is_lost.set(false);
         Ok(())
     }
 
@@ -103,18 +124,30 @@ impl GlWindow {
         self.surface.resize(&self.current, width, height);
     }
 
+    /// Everything is there.
+    ///
+    /// # Errors
+    /// [`NotShown::Lost`] if it is not, until it is [renewed](Self::renew).
+    #[allow(unsafe_code)]
+    pub fn check(&self) -> Result<(), NotShown> {
+        // SAFETY: the function is one of this context's, which is current on this thread.
+        if self.reset_status.is_some_and(|status| unsafe { status() } != 0) {
+            self.is_lost.set(true);
+        }
+        if self.is_lost.get() { Err(NotShown::Lost) } else { Ok(()) }
+    }
+
     /// What was drawn is seen.
     ///
     /// # Errors
     /// [`NotShown`] says why not.
-    #[allow(unsafe_code)]
     pub fn show(&self) -> Result<(), NotShown> {
-        // SAFETY: the function is one of this context's, which is current on this thread.
-        if self.reset_status.is_some_and(|status| unsafe { status() } != 0) {
-            return Err(NotShown::Lost);
-        }
+        self.check()?;
         self.surface.swap_buffers(&self.current).map_err(|error| match error.error_kind() {
-            ErrorKind::ContextLost => NotShown::Lost,
+            ErrorKind::ContextLost => {
+                self.is_lost.set(true);
+                NotShown::Lost
+            }
             _ => NotShown::Other(error.to_string()),
         })
     }
@@ -150,16 +183,23 @@ fn begin(
     };
     // SAFETY: the context is current on this thread, and the functions are its own.
     let gl = unsafe { three_d::context::Context::from_loader_function(address) };
-    let gl = Context::from_gl_context(Arc::new(gl)).map_err(failed)?;
-    let status = ["glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB"]
-        .into_iter()
-        .map(address)
-        .find(|status| !status.is_null())
-        .filter(|_| has_notice);
-    // SAFETY: the function of that name has that type (OpenGL 4.5, ARB_robustness).
+    // Any name may have an address: only what the driver says it has is called.
+    let (version, extensions) = (gl.version(), gl.supported_extensions());
+    let has = |name: &str| extensions.contains(name);
+    let name = if version.is_embedded {
+        has("GL_KHR_robustness").then_some("glGetGraphicsResetStatusKHR")
+    } else if has("GL_KHR_robustness") || (4, 5) <= (version.major, version.minor) {
+        Some("glGetGraphicsResetStatus")
+    } else {
+        has("GL_ARB_robustness").then_some("glGetGraphicsResetStatusARB")
+    };
+    let status =
+        name.filter(|_| has_notice).map(address).filter(|status| FIRST_ADDRESS < *status as usize);
+    // SAFETY: the function of that name has that type (OpenGL 4.5, KHR_robustness, ARB_robustness).
     let status = status.map(|status| unsafe {
         std::mem::transmute::<*const std::ffi::c_void, ResetStatus>(status)
     });
+    let gl = Context::from_gl_context(Arc::new(gl)).map_err(failed)?;
     Ok((current, gl, status))
 }
 
@@ -167,17 +207,22 @@ fn sides(size: PhysicalSize<u32>) -> [NonZeroU32; 2] {
     [size.width, size.height].map(|side| NonZeroU32::new(side).unwrap_or(NonZeroU32::MIN))
 }
 
+/// Ways to OpenGL, the one that is tried first before.
 #[cfg(target_os = "linux")]
-fn preference(_: RawWindowHandle) -> DisplayApiPreference {
-    DisplayApiPreference::GlxThenEgl(Box::new(winit::platform::x11::register_xlib_error_hook))
+fn preferences(_: RawWindowHandle) -> Vec<DisplayApiPreference> {
+    let hook = Box::new(winit::platform::x11::register_xlib_error_hook);
+    // The first goes on with EGL where there is no GLX at all, as under Wayland.
+    vec![DisplayApiPreference::GlxThenEgl(hook), DisplayApiPreference::Egl]
 }
 
+/// The only way to OpenGL.
 #[cfg(target_os = "windows")]
-fn preference(handle: RawWindowHandle) -> DisplayApiPreference {
-    DisplayApiPreference::WglThenEgl(Some(handle))
+fn preferences(handle: RawWindowHandle) -> Vec<DisplayApiPreference> {
+    vec![DisplayApiPreference::WglThenEgl(Some(handle))]
 }
 
+/// The only way to OpenGL.
 #[cfg(target_os = "macos")]
-fn preference(_: RawWindowHandle) -> DisplayApiPreference {
-    DisplayApiPreference::Cgl
+fn preferences(_: RawWindowHandle) -> Vec<DisplayApiPreference> {
+    vec![DisplayApiPreference::Cgl]
 }

@@ -20,8 +20,11 @@ export XDG_CONFIG_HOME="$folder/config" XDG_DATA_HOME="$folder/data"
 export GALLIUM_HUD=fps GALLIUM_HUD_VISIBLE=false GALLIUM_HUD_PERIOD=1
 Xvfb $DISPLAY -screen 0 1440x900x24 -nolisten tcp >/dev/null 2>&1 &
 server=$!
-trap 'kill $server 2>/dev/null; rm -rf "$folder"' EXIT
+game=
+trap 'kill $server $game 2>/dev/null; rm -rf "$folder"' EXIT
+trap 'exit 1' INT TERM
 sleep 1
+kill -0 $server 2>/dev/null || { echo "the display $DISPLAY is taken" >&2; exit 1; }
 
 # Runs a game for so long; what is done to it meanwhile comes from a function.
 watch() {
@@ -35,7 +38,9 @@ watch() {
   $play
   wait $game || true
   tail -n +16 "$GALLIUM_HUD_DUMP_DIR/fps" | sort -n >"$folder/sorted"
+  [ -s "$folder/sorted" ] || { echo "$name: no pictures" >&2; exit 1; }
   median=$(awk '{ v[NR] = $1 } END { printf "%.1f", v[int((NR + 1) / 2)] }' "$folder/sorted")
+  echo "$name: $median" >&2
   echo "$name $median"
 }
 
@@ -93,7 +98,8 @@ for _ in $(seq "$rounds"); do
     --balldetail high --cuberef on --usesound off
   settings medium
   watch medium nothing "$program" play --scene "$here/duel.toml" --no-record
-done | tee "$folder/all"
+done >"$folder/all"
+cat "$folder/all"
 awk '{ sum[$1] += $2; n[$1]++ } END {
   printf "medium / FooBillard++: %.2f\n", sum["medium"] / sum["foobillard"]
   printf "low / BillardGL: %.2f\n", sum["low"] / sum["billardgl"]

@@ -106,6 +106,8 @@ impl Desk<'_> {
     /// # Errors
     /// The window does not show it.
     pub(super) fn draw(&mut self) -> Result<bool, NotShown> {
+        // Nothing can be made where everything is lost.
+        self.graphics.check()?;
         let now_s = self.now_s();
         let mut begun = None;
         if let Some(game) = &mut self.game {
@@ -155,8 +157,16 @@ impl Desk<'_> {
             });
         let is_kept = std::mem::take(&mut self.wants_picture) && drawn.is_ok();
         let picture = is_kept.then(|| target.read_color::<[u8; 4]>());
-        drawn.map_err(|error| NotShown::Other(error.to_string()))?;
-        self.graphics.show()?;
+        let shown = match drawn {
+            Ok(()) => self.graphics.show(),
+            // What is lost gives other errors, too.
+            Err(error) => self.graphics.check().and(Err(NotShown::Other(error.to_string()))),
+        };
+        if let Err(error) = shown {
+            self.wants_picture |= is_kept;
+            return Err(error);
+        }
+        self.losses = 0;
         self.shown = Some((list, written));
         self.note_picture(begun);
         if let Some(rows) = picture {

@@ -7,7 +7,7 @@
 //! most never are, and cutting all took most of the time and memory that a table needs.
 
 use super::coarse::Reach;
-use super::plan::Lists;
+use super::plan::{LEVEL, Lists};
 use super::{Block, Found, Group, Listed, Terrain};
 use glam::{DVec3, IVec3};
 use std::collections::BTreeMap;
@@ -176,7 +176,11 @@ impl Terrain {
         for patch in cells().filter_map(|parts| self.only_patch(parts)) {
             *alone.entry(patch).or_default() += 1;
         }
-        let most = alone.iter().max_by_key(|(patch, count)| (**count, u32::MAX - **patch));
+        // Balls roll on what is level, be the walls of a room larger.
+        let is_level = |patch: u32| 1.0 - LEVEL <= self.patches[patch as usize].normal.z.abs();
+        let most = alone
+            .iter()
+            .max_by_key(|(patch, count)| (is_level(**patch), **count, u32::MAX - **patch));
         let main = most.map_or(u32::MAX, |(patch, _)| *patch);
         let empty: Vec<bool> = cells().map(|parts| parts.len() == 0).collect();
         let bare: Vec<bool> =

@@ -20,7 +20,7 @@ const FINER: i32 = 4;
 const HOP_M: f64 = 5e-3;
 
 /// The bed is level if its normal's z differs from 1 by no more than this.
-const LEVEL: f64 = 1e-12;
+pub(super) const LEVEL: f64 = 1e-12;
 
 /// A rectangle of cells in which the same things are in reach.
 #[derive(Debug, Clone, Copy)]
