@@ -21,7 +21,7 @@ export GALLIUM_HUD=fps GALLIUM_HUD_VISIBLE=false GALLIUM_HUD_PERIOD=1
 Xvfb $DISPLAY -screen 0 1440x900x24 -nolisten tcp >/dev/null 2>&1 &
 server=$!
 game=
-trap 'kill $server $game 2>/dev/null; rm -rf "$folder"' EXIT
+trap 'kill $server $game 2>/dev/null || true; rm -rf "$folder"' EXIT
 trap 'exit 1' INT TERM
 sleep 1
 kill -0 $server 2>/dev/null || { echo "the display $DISPLAY is taken" >&2; exit 1; }
@@ -37,6 +37,7 @@ watch() {
   game=$!
   $play
   wait $game || true
+  game=
   tail -n +16 "$GALLIUM_HUD_DUMP_DIR/fps" | sort -n >"$folder/sorted"
   [ -s "$folder/sorted" ] || { echo "$name: no pictures" >&2; exit 1; }
   median=$(awk '{ v[NR] = $1 } END { printf "%.1f", v[int((NR + 1) / 2)] }' "$folder/sorted")
