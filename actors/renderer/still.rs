@@ -64,6 +64,8 @@ pub struct Stills {
     context: Context,
     colour: Program,
     depth: Program,
+    /// Those of the whole picture, and of what moves in it.
+    whole: VertexBuffer<Vec2>,
     corners: VertexBuffer<Vec2>,
     kept: Vec<Still>,
     /// Of the last pictures, the latest last.
@@ -80,6 +82,7 @@ impl Stills {
         Ok(Stills {
             colour: program(context, place, &[], &[include_str!("shaders/still.frag")])?,
             depth: program(context, place, &[], &[include_str!("shaders/still_depth.frag")])?,
+            whole: VertexBuffer::new_with_data(context, &corners(&[Patch::WHOLE])),
             corners: VertexBuffer::new(context),
             kept: Vec::new(),
             recent: Vec::new(),
@@ -140,14 +143,9 @@ impl Stills {
         let Viewport { width, height, .. } = sort.viewport;
         let matrix: [[f32; 4]; 4] = sort.view_projection.into();
         let matrix = glam::Mat4::from_cols_array_2d(&matrix);
-        self.corners.fill(&corners(&[Patch::WHOLE]));
         self.colour.use_texture("colours", &still.colours);
-        self.colour.use_vertex_attribute("corner", &self.corners);
-        self.colour.draw_arrays(
-            states(WriteMask::COLOR),
-            sort.viewport,
-            self.corners.vertex_count(),
-        );
+        self.colour.use_vertex_attribute("corner", &self.whole);
+        self.colour.draw_arrays(states(WriteMask::COLOR), sort.viewport, self.whole.vertex_count());
         self.corners.fill(&corners(&patches(
             list,
             glam::Vec2::new(bed.x, bed.y),

@@ -81,6 +81,12 @@ billardgl() {
   xdotool keyup space
 }
 
+# The scene without a window, in one.
+duel() {
+  cat "$here/../../config/scenes/eight_ball_headless.toml"
+  printf '\n\n[camera]\n\n[renderer]\nwidth = 1440\nheight = 900\n\n[input]\nprofile = "default"\n'
+}
+
 settings() {
   mkdir -p "$XDG_CONFIG_HOME/hapticbillard"
   {
@@ -91,14 +97,15 @@ settings() {
 }
 
 printf '1\n1\n1\n11\n0.400000\n0\n0\n640\n16\n0\n1\n3\n901\n0\n1\n2\n0\n0.500000\n0.500000\nName%%1\nName%%2\nName\n' >"$folder/.BillardGL.conf.v7"
+duel >"$folder/duel.toml"
 for _ in $(seq "$rounds"); do
   watch billardgl billardgl /usr/games/billard-gl -windowed -t 1 -tt 1 -at 1 -g 11
   settings low
-  watch low nothing "$program" play --scene "$here/duel.toml" --no-record
+  watch low nothing "$program" play --scene "$folder/duel.toml" --no-record
   watch foobillard foobillard /usr/games/foobillardplus --geometry 1440x900 --8ball --p1 ai --p2 ai \
     --balldetail high --cuberef on --usesound off
   settings medium
-  watch medium nothing "$program" play --scene "$here/duel.toml" --no-record
+  watch medium nothing "$program" play --scene "$folder/duel.toml" --no-record
 done >"$folder/all"
 cat "$folder/all"
 awk '{ sum[$1] += $2; n[$1]++ } END {
