@@ -209,6 +209,7 @@ impl Walk<'_> {
             let patch = &self.terrain.patches[group.patch as usize];
             let height = patch.normal.dot(span.middle) - patch.offset;
             if height.abs() <= span.reach_m
+                && patch.may_reach(span.middle, span.reach_m)
                 && !self.is_held(feature)
                 && let Some((time, normal)) = self.patch(lists, group, &slice, work)
             {

@@ -50,6 +50,19 @@ pub struct Patch {
     pub offset: f64,
     /// What it is made of.
     pub surface: Surface,
+    /// A ball around all of its faces: its middle [m], and its radius [m].
+    pub middle: DVec3,
+    /// See `middle`.
+    pub extent_m: f64,
+}
+
+impl Patch {
+    /// Whether anything within `reach_m` of a point may belong to it; no more than a rough look.
+    #[inline]
+    pub fn may_reach(&self, point: DVec3, reach_m: f64) -> bool {
+        let reach = reach_m + self.extent_m;
+        (point - self.middle).length_squared() <= reach * reach
+    }
 }
 
 /// Where patches meet or a mesh ends.
@@ -242,6 +255,7 @@ impl Terrain {
         if !table.mesh.faces.is_empty() {
             terrain.faces = patches::merge(&table.mesh, &mut terrain);
             terrain.sides = terrain.triangles.iter().map(sides_of).collect();
+            terrain.bound_patches();
         }
         terrain.fill_grid(radius_m);
         terrain
@@ -361,7 +375,10 @@ impl Terrain {
         for group in lists.groups {
             let patch = &self.patches[group.patch as usize];
             let height = patch.normal.dot(centre) - patch.offset;
-            if height.abs() <= reach_m && self.holds(&lists, group, centre) {
+            if height.abs() <= reach_m
+                && patch.may_reach(centre, reach_m)
+                && self.holds(&lists, group, centre)
+            {
                 let normal = if height < 0.0 { -patch.normal } else { patch.normal };
                 note(&mut found, Feature::Patch(group.patch), normal, height.abs());
             }

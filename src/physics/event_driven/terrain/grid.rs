@@ -23,7 +23,7 @@ const CELLS_PER_PART: i32 = 16;
 pub(super) const CUTS: i32 = 3;
 
 /// A cell that lists more than this is cut, if it may be.
-const LISTED_MAX: usize = 24;
+const LISTED_MAX: usize = 12;
 
 /// Something is beside a feature if it is by this much [m]; far more than a ball is ever pressed
 /// into a face.

@@ -57,6 +57,30 @@ pub(super) fn merge(mesh: &Mesh, terrain: &mut Terrain) -> Vec<u32> {
     patch_of
 }
 
+impl Terrain {
+    /// Finds a ball around each patch.
+    pub(super) fn bound_patches(&mut self) {
+        let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); self.patches.len()];
+        for (triangle, patch) in self.triangles.iter().zip(&self.faces) {
+            let (low, high) = &mut boxes[*patch as usize];
+            for corner in triangle {
+                (*low, *high) = (low.min(*corner), high.max(*corner));
+            }
+        }
+        for (patch, (low, high)) in self.patches.iter_mut().zip(&boxes) {
+            patch.middle = 0.5 * (*low + *high);
+            patch.extent_m = tolerance::MERGE_M;
+        }
+        for (triangle, patch) in self.triangles.iter().zip(&self.faces) {
+            let patch = &mut self.patches[*patch as usize];
+            for corner in triangle {
+                let far = corner.distance(patch.middle) + tolerance::MERGE_M;
+                patch.extent_m = patch.extent_m.max(far);
+            }
+        }
+    }
+}
+
 /// Corners at the same place are one, whatever their numbers; faces without area touch nothing.
 fn weld(mesh: &Mesh) -> (Vec<DVec3>, Vec<Flat>) {
     let mut places: BTreeMap<[u64; 3], u32> = BTreeMap::new();
@@ -136,7 +160,8 @@ fn spread(points: &[DVec3], flats: &[Flat], around: &Around, terrain: &mut Terra
         let patch = terrain.patches.len() as u32;
         let (normal, surface) = (flats[seed].normal, flats[seed].surface);
         let offset = normal.dot(points[flats[seed].corners[0] as usize]);
-        terrain.patches.push(Patch { normal, offset, surface });
+        let (middle, extent_m) = (DVec3::ZERO, f64::INFINITY);
+        terrain.patches.push(Patch { normal, offset, surface, middle, extent_m });
         patch_of[seed] = patch;
         let mut open = vec![seed];
         while let Some(face) = open.pop() {
