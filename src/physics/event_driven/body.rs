@@ -63,9 +63,6 @@ pub struct Body {
     pub leans: bool,
     /// In lasting contact: since when it lies nearly still [s].
     pub quiet_since: Seconds,
-    /// In lasting contact: when a piece ends [s] and the velocity there [m/s], where it is known
-    /// better than the piece's own.
-    pub arrives: Option<(Seconds, DVec3)>,
     /// In lasting contact: mechanical energy that it should have at the next step [J].
     pub target_j: f64,
 }
@@ -97,7 +94,6 @@ impl Body {
             brushed: None,
             leans: false,
             quiet_since: 0.0,
-            arrives: None,
             target_j: 0.0,
         }
     }

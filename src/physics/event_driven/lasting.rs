@@ -125,19 +125,7 @@ impl EventDriven {
         self.watch_rails(index, at);
         self.close_segment(at, index);
         let state = self.state_at(at, index);
-        let mut next = Segment { course: Course::Lasting, swing: None, ..state };
-        let body = &mut self.bodies[index];
-        if let Some((end_s, velocity)) = body.arrives.take()
-            && end_s == at
-            && body.segment.end_s == at
-        {
-            let mass_kg = body.ball.mass_kg;
-            let change = velocity - next.velocity;
-            let gain_j = 0.5 * mass_kg * change.dot(velocity + next.velocity);
-            self.ledger.integration_j += gain_j;
-            self.ledger.momentum.table += change * mass_kg;
-            next.velocity = velocity;
-        }
+        let next = Segment { course: Course::Lasting, swing: None, ..state };
         self.bodies[index].turn_into(next);
     }
 

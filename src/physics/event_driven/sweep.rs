@@ -108,49 +108,66 @@ enum Reached {
 impl Walk<'_> {
     fn first(&self, from: Seconds, until: Seconds, work: &mut Work) -> Option<Meeting> {
         let mut from = from;
-        if let Some((plan, valid)) = self.plan(from) {
-            match self.over_plan(plan, from, until.min(valid), work) {
+        if let Some((plan, landing)) = self.plan(from, work) {
+            let lands = landing.map_or(f64::INFINITY, |landing| landing.at);
+            match self.over_plan(plan, from, until.min(lands), landing, work) {
                 Reached::Meeting(meeting) => return Some(meeting),
-                Reached::End if until <= valid => return None,
-                Reached::End => from = valid,
+                Reached::End if until < lands => return None,
+                Reached::End => from = lands,
                 Reached::Border(at) => from = at,
             }
         }
         self.run(from, until, work)
     }
 
-    /// The plan of the bed that the ball may look into, and until when.
-    fn plan(&self, from: Seconds) -> Option<(&Plan, Seconds)> {
+    /// The plan of the bed that the ball may look into; if it hops, with its landing there.
+    fn plan(&self, from: Seconds, work: &mut Work) -> Option<(&Plan, Option<Meeting>)> {
         let plans = self.terrain.plans(self.radius_m)?;
         let (z, v) = (self.segment.position_at(from).z, self.segment.velocity_at(from).z);
         let (a, above) = (self.segment.acceleration.z, z - plans.height_m);
         if self.carrier.map(Feature::Patch) == Some(self.terrain.main_patch()) {
             let level = v == 0.0 && a == 0.0 && above.abs() <= tolerance::SUPPORT_M;
-            return level.then_some((&plans.carried, f64::INFINITY));
+            return level.then_some((&plans.carried, None));
         }
         let low = -tolerance::SUPPORT_M <= above
             && a < 0.0
             && z + 0.5 * v.max(0.0) * v.max(0.0) / -a <= plans.top_m;
-        if !low || self.segment.course != Course::Flying {
+        if !low || self.segment.course != Course::Flying || !self.held.is_empty() {
             return None;
         }
-        let sinks = closing::falling_quadratic(above + tolerance::SUPPORT_M, v, a, f64::INFINITY)?;
-        Some((self.terrain.low_plan(plans), from + sinks))
+        work.face_tests += 1;
+        let (feature, normal) = (self.terrain.main_patch(), plans.normal);
+        let at = from + closing::height(above, v, a, f64::INFINITY)?;
+        let landing = Meeting { at, feature, normal, leaves: false };
+        Some((self.terrain.low_plan(plans), Some(landing)))
     }
 
-    fn over_plan(&self, plan: &Plan, from: Seconds, until: Seconds, work: &mut Work) -> Reached {
+    /// Along a plan; of what hops the landing is known already, if the bed is there.
+    fn over_plan(
+        &self,
+        plan: &Plan,
+        from: Seconds,
+        until: Seconds,
+        landing: Option<Meeting>,
+        work: &mut Work,
+    ) -> Reached {
         let mut slice = self.slice(from, until);
         let mut zone = plan.zone_at(slice.position.truncate());
         while let Some(here) = zone {
-            let (min, max) = (here.min.extend(f64::NEG_INFINITY), here.max.extend(f64::INFINITY));
-            let next = slice.cut_at(min, max);
-            let lists = plan.in_zone(here);
-            if !lists.is_empty()
-                && let Some(meeting) = self.search(&lists, slice, work)
+            let next = slice.cut_at_sides(here.min, here.max);
+            if !here.bare
+                && let Some(meeting) =
+                    self.search(&plan.in_zone(here), slice, landing.is_some(), work)
             {
                 return Reached::Meeting(meeting);
             }
-            let Some((axis, up)) = next else { return Reached::End };
+            let Some((axis, up)) = next else {
+                let lands = |landing: &Meeting| {
+                    let foot = slice.at(slice.length);
+                    landing.at <= until && self.terrain.main_holds(&plan.in_zone(here), foot)
+                };
+                return landing.filter(lands).map_or(Reached::End, Reached::Meeting);
+            };
             slice = self.slice(slice.end(), until);
             zone = plan.beyond(here, slice.position.truncate(), axis, up);
         }
@@ -166,7 +183,7 @@ impl Walk<'_> {
             let (min, max) = self.terrain.corners_of(&block);
             let next = slice.cut_at(min, max);
             if let Some(lists) = self.terrain.in_block(&block)
-                && let Some(meeting) = self.search(&lists, slice, work)
+                && let Some(meeting) = self.search(&lists, slice, false, work)
             {
                 return Some(meeting);
             }
@@ -196,8 +213,15 @@ impl Walk<'_> {
         }
     }
 
-    /// The first meeting with what is in reach on a stretch of the path.
-    fn search(&self, lists: &InReach, mut slice: Slice, work: &mut Work) -> Option<Meeting> {
+    /// The first meeting with what is in reach on a stretch of the path, but for the main patch if
+    /// that is known already.
+    fn search(
+        &self,
+        lists: &InReach,
+        mut slice: Slice,
+        but_main: bool,
+        work: &mut Work,
+    ) -> Option<Meeting> {
         let span = slice.span(self.radius_m);
         let mut best: Option<Meeting> = None;
         let mut note = |slice: &mut Slice, time: Seconds, feature, normal, leaves| {
@@ -209,6 +233,7 @@ impl Walk<'_> {
             let patch = &self.terrain.patches[group.patch as usize];
             let height = patch.normal.dot(span.middle) - patch.offset;
             if height.abs() <= span.reach_m
+                && !(but_main && feature == self.terrain.main_patch())
                 && patch.may_reach(span.middle, span.reach_m)
                 && !self.is_held(feature)
                 && let Some((time, normal)) = self.patch(lists, group, &slice, work)

@@ -336,6 +336,12 @@ impl Terrain {
             })
     }
 
+    /// Whether the foot of the perpendicular from `point` lies in the main patch, if that is near.
+    pub fn main_holds(&self, lists: &InReach, point: DVec3) -> bool {
+        let mut groups = lists.groups.iter();
+        groups.any(|group| group.patch == self.main && self.holds(lists, group, point))
+    }
+
     /// Everything no farther than `reach_m` from `centre`: feature, unit normal towards the centre,
     /// distance [m]; one of each direction, in a fixed order.
     pub fn near(&self, centre: DVec3, reach_m: f64) -> SmallVec<[(Feature, DVec3, f64); 4]> {

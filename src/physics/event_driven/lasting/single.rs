@@ -94,12 +94,9 @@ impl EventDriven {
         body.quiet_since = at;
         body.leans = false;
         let rate = 1.0 / step.length_s;
-        let way = (step.position - from.position) * rate - from.velocity;
-        let end_s = at + step.length_s;
-        body.arrives = Some((end_s, step.end.velocity));
         body.turn_into(Segment {
-            end_s,
-            acceleration: way * (2.0 * rate),
+            end_s: at + step.length_s,
+            acceleration: (step.end.velocity - from.velocity) * rate,
             angular_acceleration: (step.end.angular_velocity - from.angular_velocity) * rate,
             normal,
             spin_deceleration: 0.0,

@@ -4,7 +4,7 @@ use crate::physics::event_driven::closing::{self, Relative};
 use crate::physics::event_driven::terrain::{BESIDE_M, Corner, Edge};
 use crate::physics::tolerance;
 use crate::units::Seconds;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// A stretch of the path inside one cell.
 #[derive(Clone, Copy)]
@@ -29,12 +29,24 @@ impl Slice {
 
     /// Cuts it where it leaves a box, and says through which side; none if it ends inside.
     pub fn cut_at(&mut self, min: DVec3, max: DVec3) -> Option<(usize, bool)> {
+        self.cut_along(min.to_array(), max.to_array())
+    }
+
+    /// Cuts it where it leaves a box that has no top and no bottom.
+    pub fn cut_at_sides(&mut self, min: DVec2, max: DVec2) -> Option<(usize, bool)> {
+        self.cut_along(min.to_array(), max.to_array())
+    }
+
+    fn cut_along<const AXES: usize>(
+        &mut self,
+        min: [f64; AXES],
+        max: [f64; AXES],
+    ) -> Option<(usize, bool)> {
         let (position, velocity) = (self.position.to_array(), self.velocity.to_array());
-        let (acceleration, min, max) =
-            (self.acceleration.to_array(), min.to_array(), max.to_array());
+        let acceleration = self.acceleration.to_array();
         let whole = self.length;
         let mut side = None;
-        for axis in 0..3 {
+        for axis in 0..AXES {
             let (x, v, a) = (position[axis], velocity[axis], acceleration[axis]);
             // Which sides it crosses at all, its ends and the turn between them say without a root.
             let end = x + (v + 0.5 * a * whole) * whole;

@@ -7,7 +7,7 @@
 
 use super::coarse::Reach;
 use super::grid::{CUTS, Parts, Space};
-use super::{InReach, Listed, Terrain};
+use super::{Group, InReach, Listed, Terrain};
 use glam::{DVec2, DVec3, IVec2};
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
@@ -34,6 +34,8 @@ pub struct Zone {
     high: IVec2,
     /// What is in reach.
     pub listed: Listed,
+    /// Nothing is in reach, or nothing but the main patch with the foot inside of it.
+    pub bare: bool,
 }
 
 /// Two plans of a level bed.
@@ -41,6 +43,8 @@ pub struct Zone {
 pub struct Plans {
     /// Height of the centre of a ball on the bed [m].
     pub height_m: f64,
+    /// Unit normal of the bed, upwards.
+    pub normal: DVec3,
     /// For balls that the bed carries, which is left out of it.
     pub carried: Plan,
     /// For balls whose centre is no higher than `top_m`, the bed included; drawn when the first
@@ -106,7 +110,8 @@ impl Terrain {
         let height_m = main.offset / main.normal.z + self.radius_m;
         let top_m = height_m + HOP_M;
         let carried = self.draw_plan((height_m, height_m), |parts| self.forget(self.main, parts));
-        Some(Plans { height_m, carried, low: OnceLock::new(), top_m })
+        let normal = main.normal * main.normal.z.signum();
+        Some(Plans { height_m, normal, carried, low: OnceLock::new(), top_m })
     }
 
     /// The plan for balls that hop.
@@ -179,12 +184,20 @@ impl Terrain {
         let (zones, zone_of) = rectangles(&list_of, count);
         let zones = zones
             .into_iter()
-            .map(|(low, high)| Zone {
-                min: origin + low.as_dvec2() * cell_m,
-                max: origin + (high + 1).as_dvec2() * cell_m,
-                low,
-                high,
-                listed: listed[list_of[(low.y * count.x + low.x) as usize] as usize],
+            .map(|(low, high)| {
+                let listed = listed[list_of[(low.y * count.x + low.x) as usize] as usize];
+                let found = lists.of(&listed);
+                let main = |group: &Group| group.patch == self.main && group.is_whole();
+                Zone {
+                    min: origin + low.as_dvec2() * cell_m,
+                    max: origin + (high + 1).as_dvec2() * cell_m,
+                    low,
+                    high,
+                    listed,
+                    bare: found.groups.iter().all(main)
+                        && found.edges.is_empty()
+                        && found.corners.is_empty(),
+                }
             })
             .collect();
         let inverse_cell = cell_m.recip();
