@@ -1,6 +1,6 @@
 //! `simulate --bench`: how long shots take, beside the stepper on the same shots in the same run.
 //!
-//! Processor time of this thread, without making the world: every shot is played once before.
+//! Processor time of this thread, without making the world: every turn is played once before.
 //! Both solvers take turns every few shots, so that whatever else the machine does hits both alike,
 //! and neither pays for what the other has left in the caches; trust the ratio.
 
@@ -9,6 +9,7 @@ use super::print::{BallLine, balls};
 use super::{LONGEST_S, SETTLED, SimulateArgs, batch};
 use hapticbillard::events::FactSet;
 use hapticbillard::physics::{PhysicsSettings, Simulation, SolverKind, Work, sample_shots};
+use hapticbillard::quantile::nearest_rank;
 use hapticbillard::table::Table;
 use hapticbillard_actors::cpu_time::thread_cpu_time;
 use hapticbillard_actors::error::Error;
@@ -96,11 +97,12 @@ pub fn run(
     let mut reports = Vec::new();
     for group in &groups {
         let mut sums = Sums::default();
-        // A table prepares what a ball first comes near, once: that is a part of making the world.
-        for (start, _) in &group.shots {
-            timed(args, start)?;
-        }
         for (turn, shots) in group.shots.chunks(TURN).enumerate() {
+            // Once for nothing: a table prepares what a ball first comes near, which is a part of
+            // making the world, and the stepper has just left the caches full of its own.
+            for (start, _) in shots {
+                timed(args, start)?;
+            }
             for (number, (start, _)) in shots.iter().enumerate() {
                 let (cpu_us, end) = timed(args, start)?;
                 sums.times_us.push(cpu_us);
@@ -258,7 +260,7 @@ fn report(group: &'static str, sums: Sums) -> Report {
 fn spread(mut times_us: Vec<f64>) -> Spread {
     times_us.sort_by(f64::total_cmp);
     let n = times_us.len() as f64;
-    let at = |share: f64| times_us[((n * share) as usize).min(times_us.len() - 1)];
+    let at = |share: f64| nearest_rank(&times_us, share).unwrap_or(0.0);
     Spread { mean: times_us.iter().sum::<f64>() / n, median: at(0.5), p99: at(0.99) }
 }
 

@@ -177,14 +177,6 @@ pub struct InReach<'a> {
     triangles: &'a [u32],
 }
 
-impl InReach<'_> {
-    /// Whether that is nothing.
-    #[inline]
-    pub fn is_empty(&self) -> bool {
-        self.groups.is_empty() && self.edges.is_empty() && self.corners.is_empty()
-    }
-}
-
 /// The fixed part of a world; shared by all clones of a simulation.
 #[derive(Debug, Default)]
 pub struct Terrain {

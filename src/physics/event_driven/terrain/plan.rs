@@ -263,7 +263,7 @@ impl Lists {
 /// Parts in a row, as cells and zones name them.
 #[derive(Debug, Default)]
 pub struct Lists {
-    pub groups: Vec<super::Group>,
+    pub groups: Vec<Group>,
     pub triangles: Vec<u32>,
     pub edges: Vec<u32>,
     pub corners: Vec<u32>,
