@@ -128,5 +128,10 @@ pub const LASTING_STEP_S: Seconds = 5e-4;
 /// A ball that turns about an edge more slowly goes on that grid too [m/s]: resistance may stop it.
 pub const PIVOT_M_S: f64 = 5e-3;
 
+/// What leans on several things, begins a step no faster than this and ends it no faster either
+/// sleeps at once [m/s]. On a rim what stays unnoticed doubles in 40 ms: it would be asleep by
+/// [`SLEEP_S`] all the same.
+pub const CALM_M_S: f64 = 1e-9;
+
 /// What lies still this long, slower than [`REST_M_S`], sleeps [s].
 pub const SLEEP_S: Seconds = 0.2;

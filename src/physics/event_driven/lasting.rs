@@ -260,10 +260,12 @@ impl EventDriven {
         cluster::resolve(&mut movers, &mut touches);
         let lost = self.friction_losses(&stay, &touches, &pushed, &mut movers, dt);
 
+        // What this step has not moved the next ones will not move either.
+        let calm = starts.iter().chain(&movers).all(|mover| pace(mover) <= tolerance::CALM_M_S);
         for (place, index) in stay.iter().enumerate() {
             let body = &mut self.bodies[*index];
             let (start, end) = (&starts[place], &movers[place]);
-            let moved = end.velocity.length().max(end.angular_velocity.length() * start.radius_m);
+            let moved = pace(end);
             let from = body.segment;
             let energy = start.kinetic_j()
                 + body.ball.mass_kg * self.parameters.gravity_m_s2 * from.position.z;
@@ -277,7 +279,7 @@ impl EventDriven {
             if moved > tolerance::REST_M_S {
                 body.quiet_since = at;
             }
-            if at - body.quiet_since >= tolerance::SLEEP_S {
+            if calm || at - body.quiet_since >= tolerance::SLEEP_S {
                 // It sleeps where it is.
                 let kinetic = start.kinetic_j();
                 let momentum = start.velocity * body.ball.mass_kg;
@@ -364,6 +366,11 @@ impl EventDriven {
         }
         lost
     }
+}
+
+/// Speed of a ball, or of its skin if it spins faster [m/s].
+fn pace(mover: &Mover) -> f64 {
+    mover.velocity.length().max(mover.angular_velocity.length() * mover.radius_m)
 }
 
 /// The next step after `at` of all that go on the grid [s].
