@@ -339,9 +339,10 @@ impl Between {
 fn first_below(length: f64, ends: (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, length);
     let (mut above, mut below) = ends;
-    let (mut side, mut last, mut width) = (0, f64::INFINITY, length);
+    let (mut side, mut middle, mut width) = (0, f64::INFINITY, length);
     for turn in 1..=TURNS_MAX {
-        let mut middle = low + (high - low) * (above / (above - below)).clamp(1e-3, 1.0 - 1e-3);
+        let last = middle;
+        middle = low + (high - low) * (above / (above - below)).clamp(1e-3, 1.0 - 1e-3);
         if turn % 3 == 0 {
             if high - low > 0.25 * width {
                 middle = 0.5 * (low + high);
@@ -351,7 +352,6 @@ fn first_below(length: f64, ends: (f64, f64), value: impl Fn(f64) -> f64) -> f64
         if high - low <= ROOT * length || (middle - last).abs() <= 0.5 * ROOT * length {
             break;
         }
-        last = middle;
         let here = value(middle);
         if here < 0.0 {
             (high, below) = (middle, here);
@@ -363,7 +363,7 @@ fn first_below(length: f64, ends: (f64, f64), value: impl Fn(f64) -> f64) -> f64
             side = 1;
         }
     }
-    low
+    middle
 }
 
 #[cfg(test)]
@@ -440,6 +440,23 @@ mod tests {
         let exact = velocity + fall * step.length_s;
         assert!(step.end.velocity.distance(exact) < 1e-14, "{step:?}");
         assert!(step.loss_j.abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_first_negative_value_is_found_whatever_the_shape() {
+        for place in [1e-4, 0.1, 0.5, 0.93, 0.9999] {
+            let shapes: [fn(f64) -> f64; 4] = [
+                |x| -x,
+                |x| -x * (1.0 + 50.0 * x * x),
+                |x| libm::cbrt(-x),
+                |x| libm::expm1(-9.0 * x),
+            ];
+            for (number, shape) in shapes.iter().enumerate() {
+                let value = |x: f64| shape(x - place);
+                let found = first_below(1.0, (value(0.0), value(1.0)), value);
+                assert!((found - place).abs() < 2e-8, "{number} {place}: {found}");
+            }
+        }
     }
 
     #[test]
